@@ -57,7 +57,7 @@ fn a_free_shift_brings_its_interval() {
         ),
         (
             "lilliefors --sample left.txt --shift free",
-            "expected a number, not negative, or min",
+            "expected a non-negative number, or min",
         ),
     ] {
         let said = refused(&place, command);

@@ -29,7 +29,7 @@ fn lognormal(
     Lognormal::try_new(shift, log_mean, dispersion).map_err(refuse)
 }
 
-/// Where a fragility comes from, or the size of its sample.
+/// Origin of a fragility, or the size of its sample.
 #[derive(FromPyObject)]
 pub enum OriginInput {
     Origin(String),
@@ -108,8 +108,8 @@ pub fn model_error(
     Ok(usual.or(bias, dispersion))
 }
 
-/// The text of a format, and where it has one that of a second file beside
-/// it, with its extension.
+/// The text of a format, and the extension and text of a second file if the
+/// format has one.
 #[pyfunction]
 pub fn exchange(
     format: &str,
@@ -132,7 +132,7 @@ pub enum SiteInput {
     Id(String),
 }
 
-/// A hazard curve as it is written: the place, its text, the years of its
+/// A hazard curve as text: its place in messages, the text, the years of its
 /// probabilities, and the site.
 pub type HazardInput = (String, String, Option<f64>, Option<SiteInput>);
 
@@ -145,8 +145,8 @@ pub fn read((place, text, years, site): &HazardInput) -> PyResult<Hazard> {
     Hazard::parse(place, text, &options).map_err(refuse)
 }
 
-/// The points of a hazard curve, its measure, the unit of its intensities,
-/// and what was set aside.
+/// The points of a hazard curve, its measure, the unit of its intensities, and
+/// remarks on what was set aside.
 type HazardOutput =
     (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
 
@@ -170,8 +170,7 @@ pub enum RiskInput {
 /// were fitted.
 type RiskSample<'py> = Option<(Vec<SampleInput<'py>>, usize, Fit)>;
 
-/// What the draws of a sample make of its fragility; none above a shift that
-/// is not known.
+/// The fits to the draws of a sample; `None` for a shift that is not known.
 fn sampled(
     py: Python<'_>,
     behind: RiskSample<'_>,

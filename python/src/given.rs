@@ -1,5 +1,4 @@
-//! What Python gives: blocks, models, records and pulses, checked by the
-//! core.
+//! Input from Python: blocks, models, records and pulses, checked by the core.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -17,7 +16,7 @@ use rocking_records::{Remark, remarks};
 
 use crate::work::{self, refuse};
 
-/// Refuses a word that is none of the choices.
+/// Finds a word among the choices, or rejects it.
 pub fn choose<T: Copy>(
     what: &str,
     found: &str,
@@ -133,7 +132,7 @@ impl RecordOrPulse {
     }
 }
 
-/// The records of a suite, by names that tell them apart.
+/// The records of a suite, with distinct names.
 pub fn suite_of(
     given: Vec<ExcitationInput<'_>>,
 ) -> PyResult<Vec<Accelerogram>> {
@@ -234,7 +233,7 @@ pub fn remarked(remark: &Remark) -> String {
 }
 
 /// Samples in multiples of gravity, checked with the name of the record, and
-/// what is suspicious about them.
+/// remarks on suspicious samples.
 #[pyfunction]
 pub fn samples<'py>(
     py: Python<'py>,

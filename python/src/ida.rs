@@ -1,4 +1,4 @@
-//! Incremental dynamic analysis of a suite, and what one asks of its table.
+//! Incremental dynamic analysis of a suite, and questions to its table.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -149,7 +149,7 @@ pub fn ida_of_csv(
 }
 
 impl PyIdaTable {
-    /// What was run.
+    /// The analysis and the summary of the run.
     fn run(&self) -> PyResult<&(Analysis, String)> {
         self.run.as_ref().ok_or_else(|| {
             refuse("a table that was read: expected the result of `ida`")
@@ -263,12 +263,12 @@ impl PyIdaTable {
         self.table.events().unwrap_or_default()
     }
 
-    /// The curves in a few numbers.
+    /// The summary of the curves.
     fn summary(&self) -> PyResult<String> {
         Ok(self.run()?.1.clone())
     }
 
-    /// What the analyses ask of the pivot.
+    /// The forces at the pivot in the analyses.
     fn pivot_forces(
         &self,
         py: Python<'_>,
@@ -362,7 +362,7 @@ impl PyIdaTable {
     }
 }
 
-/// What is wrong with the curve of a record.
+/// A fault of the curve of a record.
 fn of_record((record, error): (String, CapacityError)) -> PyErr {
     refuse(format!("record {record}: {error}"))
 }

@@ -1,7 +1,7 @@
 //! The native half of the Python package `rocking`.
 //!
-//! Functions on numbers and numpy arrays; `python/rocking` makes the objects
-//! that people see of them. Errors carry the core's text.
+//! Functions on numbers and numpy arrays; `python/rocking` builds the public
+//! objects on them. Errors have the core's text.
 
 mod assess;
 mod exchange;

@@ -16,7 +16,7 @@ use crate::given::{
 use crate::ida::table;
 use crate::work::{self, refuse};
 
-/// What is scaled to a level.
+/// The quantity that is scaled to a level.
 #[derive(Clone, Copy, PartialEq)]
 pub enum By {
     /// PGA/(g tan alpha).

@@ -1,8 +1,8 @@
 //! Peaks of many blocks under many excitations at many levels.
 //!
 //! A record beyond the uplift threshold runs in the lanes of the core, as the
-//! only level of an IDA curve. Pulses, factors and what hardly lifts off run
-//! alone. The bits are the same.
+//! only level of an IDA curve. Pulses, factors and levels close to the
+//! threshold run one by one. The bits are the same.
 
 use std::sync::OnceLock;
 
@@ -29,7 +29,7 @@ use crate::work::{self, Done, refuse};
 /// more levels than the core allows.
 const LEAST_IM: f64 = 1.0 + 1e-6;
 
-/// Curves that are handed to the lanes at once: their list stays small.
+/// Most curves in the lanes at once, so that their list stays small.
 const MOST_CURVES: usize = 1 << 17;
 
 /// Peaks |theta|/alpha by block, excitation and level; infinite if it
@@ -75,7 +75,7 @@ pub fn peak<'py>(
         .map_err(refuse)
 }
 
-/// What is asked, but for the excitations.
+/// The task, without the excitations.
 struct PeakTask {
     blocks: Vec<(Block, Restitution)>,
     levels: Vec<f64>,
@@ -144,7 +144,8 @@ impl PeakTask {
         made.collect()
     }
 
-    /// The curve whose only level is this one; none if it runs alone.
+    /// The analysis with this single level; `None` if it does not run in
+    /// lanes.
     fn single(&self, block: usize, level: usize) -> Option<Analysis> {
         let (body, restitution) = self.blocks[block];
         let asked = self.levels[level];

@@ -54,7 +54,7 @@ pub fn read_tests<'py>(
     Ok(shown.collect())
 }
 
-/// What is known of the specimen, and how it is compared.
+/// The specimen, and the options of the comparison.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Comparing {

@@ -19,7 +19,7 @@ pub fn refuse(error: impl Display) -> PyErr {
 /// How often signals are examined and progress is reported.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// Fewer numbers than these are done sooner than a thread is started.
+/// Work on fewer numbers than these takes less time than starting a thread.
 const MANY: usize = 1 << 16;
 
 /// Parts of the work that are done.
@@ -33,12 +33,12 @@ impl Done {
     }
 }
 
-/// Runs work of `total` parts on threads of its own while this thread, which
-/// has let go of the interpreter, looks at signals and calls
-/// `progress(done, total)`. What either raises stops the work.
+/// Runs work of `total` parts on separate threads. Meanwhile this thread,
+/// detached from the interpreter, checks signals and calls `progress(done,
+/// total)`. An exception from either stops the work.
 ///
-/// The threads are made anew for each call: a process that Python forks has
-/// none of its parent's.
+/// The threads are created for each call: a process that Python forks has none
+/// of the threads of its parent.
 pub fn run<T: Send>(
     py: Python<'_>,
     threads: Option<usize>,
@@ -116,7 +116,7 @@ pub fn alone<T: Send>(
     run(py, Some(1), None, 0, |_| work())
 }
 
-/// [`alone`] where the work is on many numbers; few are done here.
+/// [`alone`] for work on many numbers; work on few runs on this thread.
 pub fn on_numbers<T: Send>(
     py: Python<'_>,
     count: usize,

@@ -319,8 +319,8 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
     }
     let flawed = [
         ("\"seen\": \"yes\"", "\"seen\": \"maybe\"", "one of yes, in part"),
-        ("1.01,", "1.21,", "expected rising numbers"),
-        ("1.01,", "null,", "expected rising numbers"),
+        ("1.01,", "1.21,", "expected a low end not above"),
+        ("1.01,", "null,", "expected a low end not above"),
         ("\"value\": 1.1", "\"value\": \"one\"", "found \"one\""),
         ("\"value\": 1.1,", "", "missing field `value` at line"),
         ("\"p_rad_s\": 1.0", "\"p_rad_s\": 3.0", "twice"),

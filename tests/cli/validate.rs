@@ -166,7 +166,7 @@ fn every_fault_of_a_table_is_named_with_its_line() {
             "faulty.csv:3: column fate: found \"fell\": expected overturned",
             "faulty.csv:4: column scale: found \"-2\": expected a positive",
             "b.at2",
-            "faulty.csv:6: test \"a\" is on line 2, too",
+            "faulty.csv:6: test \"a\" is also on line 2",
             "faulty.csv:7: column fate: found \"2\"",
             "faulty.csv:7: column scale: found \"x\"",
         ],

@@ -1,4 +1,5 @@
-//! From objects and records to which object is damaged first, and how often.
+//! Assessment of objects under records: which object is damaged first, and how
+//! often.
 
 mod answers;
 mod ground;
@@ -31,7 +32,7 @@ use rocking_statistics::{Clusters, Estimate};
 /// Coefficients of restitution beside the object's own.
 const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
 
-/// The fewest records that an assessment takes.
+/// Minimum number of records of an assessment.
 const LEAST_RECORDS: usize = 3;
 
 /// A free-standing object.
@@ -45,8 +46,8 @@ pub struct Object {
     pub restitution: Restitution,
     /// Coefficient of friction of the floor, if known.
     pub friction: Option<f64>,
-    /// Rotation over slenderness that must not be exceeded, in (0, 1); none:
-    /// the object must not overturn.
+    /// Limit of rotation over slenderness, in (0, 1); `None` if the object
+    /// must not overturn.
     pub limit_ratio: Option<f64>,
     /// The floor of a building on which it stands; none on the ground.
     pub floor: Option<NamedFloor>,
@@ -61,7 +62,7 @@ pub struct NamedFloor {
     pub floor: Floor,
 }
 
-/// How objects are assessed.
+/// Options of an assessment.
 #[derive(Clone, Copy, Debug)]
 pub struct AssessOptions<'a> {
     /// Gravity in m/s2.
@@ -72,14 +73,13 @@ pub struct AssessOptions<'a> {
     pub years: f64,
     /// Draws of the bootstrap.
     pub draws: Draws,
-    /// Whether each fate is resolved in the arithmetic that it needs.
+    /// Whether each outcome is resolved in sufficient precision.
     pub certify: bool,
-    /// The error of the model, in every answer but that of the records
-    /// alone.
+    /// The model error, in every answer except the alternative without it.
     pub model_error: ModelError,
     /// Median intensities of overturning under recorded motions over those
-    /// under the records here, of blocks for which both are known; empty
-    /// where none is.
+    /// under the records here, of blocks for which both are known; empty if
+    /// none is known.
     pub recorded_ratios: &'a [f64],
 }
 
@@ -88,7 +88,7 @@ pub struct AssessOptions<'a> {
 pub enum Damage {
     /// The object overturns.
     Overturning,
-    /// Its rotation exceeds this part of the slenderness.
+    /// Its rotation exceeds this fraction of the slenderness.
     Rotation(f64),
 }
 
@@ -110,23 +110,23 @@ impl Damage {
     }
 }
 
-/// Objects under a suite, the one that needs attention first before all.
+/// Objects under a suite, sorted by urgency.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Assessment {
     /// Intensity measure of all intensities here.
     pub im: IntensityMeasure,
-    /// Unit of all intensities here: that of the hazard curve.
+    /// Unit of all intensities here and of the hazard curve.
     pub unit: &'static str,
-    /// Such units in one of the measure itself (g, m/s).
+    /// Number of these units in one unit of the measure (g, m/s).
     #[serde(skip)]
     pub units_per_im_unit: f64,
     /// Number of records.
     pub records: usize,
-    /// What the intervals rest on.
+    /// Basis of the intervals.
     #[serde(flatten)]
     pub basis: IntervalBasis,
-    /// The error of the model in every answer but that of the records alone.
+    /// The model error in every answer except the alternative without it.
     pub model_error: ModelError,
     /// Years of the probabilities.
     pub years: f64,
@@ -135,16 +135,16 @@ pub struct Assessment {
     /// pairs; none if no pair has three records that damage both.
     pub correlation: Option<Estimate>,
     /// By falling annual frequency of damage, or by rising intensity of 5 %
-    /// damage where there is no hazard curve.
+    /// damage if there is no hazard curve.
     pub objects: Vec<ObjectAssessment>,
-    /// At least one, two, .. objects damaged by the same earthquake.
+    /// Joint damage of at least one, two, .. objects in the same earthquake.
     pub together: Vec<JointDamage>,
-    /// What recorded motions change, where ratios of them are known and an
-    /// object on the ground overturns.
+    /// Effect of recorded motions, if their ratios are known and an object on
+    /// the ground overturns.
     pub recorded_motions: Option<RecordedMotions>,
 }
 
-/// What recorded motions change in answers under other motions.
+/// Effect of recorded motions on answers computed with other motions.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RecordedMotions {
@@ -188,7 +188,7 @@ pub struct ObjectAssessment {
     /// The intensities at which the records damage it, and their lognormal
     /// fit.
     pub fragility: FragilityFit,
-    /// What follows of the fit with the error of the model.
+    /// Answer of the fit with the model error.
     pub answer: Answer,
     /// Probabilities of damage with their band.
     pub band: Option<Band>,
@@ -200,22 +200,21 @@ pub struct ObjectAssessment {
     /// Intensities of damage by record, ascending; records that do not
     /// damage the object follow, by the intensity up to which they were run.
     pub by_record: Vec<RecordCapacity>,
-    /// Intensity measures by the dispersion that they leave.
+    /// Intensity measures ranked by the dispersion that remains.
     pub ranking: Ranking,
     /// The answer under other assumptions.
     pub alternatives: Vec<Alternative>,
-    /// Share of records that ask for more friction than there is before they
+    /// Share of records that need more friction than there is before they
     /// damage the object; none if no friction is given.
     pub slides_first: Option<f64>,
-    /// How many analyses each arithmetic resolved.
+    /// Number of analyses that each arithmetic resolved.
     pub resolution: ResolutionCounts,
     /// Share of the draws in which this object comes first.
     pub first_in_draws: f64,
 }
 
 impl ObjectAssessment {
-    /// The intensity measure that leaves the least dispersion, and that
-    /// dispersion.
+    /// The intensity measure with the least dispersion, and its dispersion.
     #[must_use]
     pub fn best_im(&self) -> Option<(&str, f64)> {
         let measures = self.ranking.measures.iter();
@@ -226,7 +225,8 @@ impl ObjectAssessment {
     }
 }
 
-/// What a fragility says of an object; no interval if it was not drawn.
+/// Results of a fragility for an object; without intervals if it was not
+/// drawn.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
@@ -269,33 +269,33 @@ impl Answer {
     }
 }
 
-/// What one record does to an object.
+/// Capacity of an object under one record.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordCapacity {
     /// The record.
     pub record: String,
-    /// Intensity of damage, or up to which there is none.
+    /// Intensity of damage, or the highest intensity without damage.
     pub im: f64,
     /// Whether the record damages the object.
     pub damages: bool,
 }
 
-/// An assumption beside the one that is made.
+/// An alternative assumption.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Assumption {
-    /// The records alone, without the error of the model.
+    /// No model error, only the scatter of the records.
     RecordsAlone,
     /// Another coefficient of restitution.
     Restitution(f64),
     /// A fragility without a shift.
     NoShift,
-    /// Intervals as if each record were an earthquake of its own.
+    /// Intervals as if each record came from a different earthquake.
     RecordsAsUnit,
-    /// Each intensity counted by itself, up to twice that of the first
-    /// overturning: a stronger motion may leave the block standing.
+    /// Each intensity counted separately, up to twice the intensity of the
+    /// first overturning: a stronger motion may leave the block standing.
     Resurrections,
-    /// The law of AvgSA with the spectra of the records, and no analysis.
+    /// The law of AvgSA with the spectra of the records, without an analysis.
     Law,
 }
 
@@ -338,15 +338,15 @@ pub struct Alternative {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct JointDamage {
-    /// So many objects or more are damaged.
+    /// Minimum number of damaged objects.
     pub at_least: usize,
-    /// What follows of the fit to the intensities at which each record
-    /// damages so many.
+    /// Answer of the fit to the intensities at which each record damages this
+    /// many objects.
     #[serde(flatten)]
     pub answer: Answer,
 }
 
-/// Why objects were not assessed.
+/// Why objects cannot be assessed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AssessError {
@@ -359,7 +359,7 @@ pub enum AssessError {
          scatter of intensities of damage"
     )]
     Records(usize),
-    /// A limit is a part of the slenderness.
+    /// A limit of rotation that is not a fraction of the slenderness.
     #[error("{id}: limit_ratio {found}: expected a number between 0 and 1")]
     Limit {
         /// The object.
@@ -367,7 +367,7 @@ pub enum AssessError {
         /// Its limit.
         found: f64,
     },
-    /// The hazard curve has a measure that is no record's.
+    /// The measure of the hazard curve cannot be computed from records.
     #[error(
         "hazard curve in {0}: expected pga_g, pgv_m_s, pgv_cm_s or a \
          spectral acceleration"
@@ -376,7 +376,7 @@ pub enum AssessError {
     /// An analysis was refused.
     #[error(transparent)]
     Analysis(#[from] IdaError),
-    /// The forces at an object's pivot were refused.
+    /// The forces at an object's pivot cannot be computed.
     #[error("{id}: {source}")]
     Ida {
         /// The object.
@@ -392,7 +392,7 @@ pub enum AssessError {
         /// Why.
         source: ProcedureError,
     },
-    /// An object's capacities make no fit under another assumption.
+    /// An object's capacities have no fit under another assumption.
     #[error("{id}, {assumption}: {source}")]
     Alternative {
         /// The object.
@@ -410,7 +410,7 @@ pub enum AssessError {
         /// Why.
         source: IntensityError,
     },
-    /// A record does not move a floor.
+    /// The motion of a floor under a record cannot be computed.
     #[error("record {record}, floor {floor}: {source}")]
     Floor {
         /// The record.
@@ -435,15 +435,15 @@ pub enum AssessError {
 /// `clusters`.
 ///
 /// Each object is a rigid block that rocks (Eq. 1) under each record, scaled
-/// up until it overturns ([`curves`](rocking::ida::curves), levels 0.01 g apart, the first
-/// overturning bisected). The intensities of damage are fitted by a lognormal
-/// distribution: in PGA above the intensity g tan(alpha) at which the object
-/// begins to rock, in other measures, and on a floor, from 0. On a
-/// [floor](Floor) the object rocks under the floor's motion; intensities stay
-/// those of the ground. Each fit gets the error of the model. Intervals are
-/// of the bootstrap, which draws earthquakes, and for each draw and object an
-/// error of the model. The objects damaged together are counted record
-/// by record, since one earthquake moves all.
+/// up until it overturns ([`curves`](rocking::ida::curves), levels 0.01 g
+/// apart, the first overturning bisected). The intensities of damage are
+/// fitted by a lognormal distribution: in PGA above the intensity g tan(alpha)
+/// at which the object begins to rock, in other measures, and on a floor, from
+/// 0. On a [floor](Floor) the object rocks under the floor's motion;
+/// intensities stay those of the ground. Each fit gets the error of the model.
+/// Intervals are of the bootstrap, which draws earthquakes, and for each draw
+/// and object an error of the model. The objects damaged together are counted
+/// record by record, since one earthquake shakes all of them.
 ///
 /// ```
 /// use rocking_procedures::assess::{AssessOptions, Object, assess};
@@ -483,8 +483,8 @@ pub enum AssessError {
 ///
 /// # Errors
 /// [`AssessError`] for no object, fewer than three records, a limit outside
-/// (0, 1), a hazard curve in another unit, and an object that makes no fit,
-/// such as one that fewer than two records damage.
+/// (0, 1), a hazard curve in another unit, and an object without a fit, such
+/// as one that fewer than two records damage.
 pub fn assess(
     objects: &[Object],
     records: &[Accelerogram],

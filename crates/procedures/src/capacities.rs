@@ -60,8 +60,8 @@ pub struct LevelCapacities {
     pub stripe_discrepancy: f64,
 }
 
-/// Quantiles (type 5) of the capacities at EDP levels, in the intensity that
-/// `measured` makes of that of the curves.
+/// Quantiles (type 5) of the capacities at EDP levels, in the intensity
+/// measure into which `measured` converts the intensity of the curves.
 ///
 /// # Errors
 /// As [`sample`].
@@ -87,8 +87,8 @@ pub fn levels(
     levels.iter().map(level).collect()
 }
 
-/// All crossings of one EDP level by one curve, and the capacities made of
-/// them.
+/// All crossings of one EDP level by one curve, and the capacities derived
+/// from them.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct LevelCrossings {
@@ -106,8 +106,8 @@ pub struct LevelCrossings {
     pub crossings: Vec<f64>,
 }
 
-/// The crossings of EDP levels by one curve, in the intensity that `measured`
-/// makes of that of the curve.
+/// The crossings of EDP levels by one curve, in the intensity measure into
+/// which `measured` converts the intensity of the curve.
 ///
 /// # Errors
 /// [`ProcedureError::Capacity`] for a level that is no positive number.

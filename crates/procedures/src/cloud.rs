@@ -10,20 +10,20 @@ use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::regression::{CensoredLine, RegressionError, tobit};
 use rocking_statistics::{Clusters, Lognormal, Range};
 
-/// Why a cloud analysis was refused.
+/// Why a cloud analysis was rejected.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CloudError {
-    /// A cloud knows responses up to overturning.
+    /// A level outside the responses of a cloud, which end at overturning.
     #[error("EDP level {0}: expected a positive number up to 1, or inf")]
     Level(f64),
-    /// The points make no line.
+    /// The points determine no line.
     #[error("line of (ln IM, ln EDP) of records that rock and stand: {0}")]
     Line(#[from] RegressionError),
     /// The response does not grow with the intensity.
     #[error("slope {0} of ln EDP on ln IM: expected a positive number")]
     Slope(f64),
-    /// Draws or clusters that are refused.
+    /// Invalid draws or clusters.
     #[error(transparent)]
     Draws(#[from] ProcedureError),
     /// The shift, or numbers that make no fragility.
@@ -31,7 +31,7 @@ pub enum CloudError {
     Lognormal(#[from] LognormalError),
 }
 
-/// What a cloud analysis gives.
+/// Options of a cloud analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CloudOptions {
     /// Levels of peak |theta|/alpha, positive and up to 1; 1 and infinity are
@@ -48,7 +48,7 @@ pub struct CloudOptions {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CloudFragility {
-    /// What the intervals rest on: the records that enter the line.
+    /// Basis of the intervals: the records that enter the line.
     #[serde(flatten)]
     pub basis: IntervalBasis,
     /// Number of records.
@@ -81,7 +81,7 @@ pub struct CloudLevel {
     pub edp: f64,
     /// The fragility, in the unit of the IM.
     pub fitted: Lognormal,
-    /// Its median; the standard error is that of ln(median - shift).
+    /// Its median, with the standard error of ln(median - shift).
     pub median: BootstrapEstimate,
     /// Its dispersion sigma/b.
     pub dispersion: BootstrapEstimate,

@@ -48,7 +48,7 @@ pub enum SampleSide {
     B,
 }
 
-/// Why a comparison was refused.
+/// Why a comparison was rejected.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
@@ -75,7 +75,7 @@ pub enum ComparisonError {
     Numbered(SampleSide),
     /// A record twice in a sample.
     #[error(
-        "record {record} is twice in the sample: expected it once in both"
+        "record {record} occurs twice in the sample: expected it once in both"
     )]
     Twice {
         /// Which sample.
@@ -98,13 +98,13 @@ pub enum ComparisonError {
         /// Place of its value, from 0.
         place: usize,
     },
-    /// The pairs are refused.
+    /// The pairs are invalid.
     #[error(transparent)]
     Pairs(#[from] PairedError),
 }
 
 impl ComparisonError {
-    /// The sample that is refused, and the place of the value.
+    /// The invalid sample, and the place of the value.
     #[must_use]
     pub fn place(&self) -> Option<(SampleSide, Option<usize>)> {
         match *self {
@@ -232,7 +232,7 @@ mod tests {
         let places = named(["1", "2", "3"]);
         for (a, b, expected) in [
             (&own[..], &["x", "y", "w"][..], "record z is not in the other"),
-            (&["x", "y", "x"], &own, "record x is twice"),
+            (&["x", "y", "x"], &own, "record x occurs twice"),
             (&[], &own, "0 names of records for 3 values"),
             (&places, &places, "numbered by their places"),
         ] {

@@ -21,7 +21,7 @@ use rocking_statistics::{
 /// product of both numbers.
 const MOST: usize = 3000;
 
-/// Why a contrast was refused, or has no interval.
+/// Why a contrast was rejected, or has no interval.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ContrastError {
@@ -33,7 +33,7 @@ pub enum ContrastError {
         /// The value.
         value: f64,
     },
-    /// More values than the test and the draws are made for.
+    /// Too many values for the exact test.
     #[error("{0} values: expected at most {MOST}")]
     Many(usize),
     /// Earthquakes and values differ in number.
@@ -47,9 +47,7 @@ pub enum ContrastError {
         values: usize,
     },
     /// A record twice in a sample.
-    #[error(
-        "record {0} is twice in a sample: expected each record once in it"
-    )]
+    #[error("record {0} occurs twice in a sample: expected each record once")]
     Twice(String),
     /// A record in both samples.
     #[error(
@@ -63,7 +61,7 @@ pub enum ContrastError {
     /// No value is left.
     #[error(transparent)]
     Sample(#[from] SampleError),
-    /// A median that censored values leave open.
+    /// A median that is unknown because of censored values.
     #[error("a median is censored: the ratio is not known")]
     Open,
     /// The test is one of independent values.
@@ -74,7 +72,7 @@ pub enum ContrastError {
     Dependent,
 }
 
-/// One of two samples, and what is known about its records.
+/// One of two samples, with the names and earthquakes of its records.
 #[derive(Clone, Copy, Debug)]
 pub struct ContrastSample<'a, S> {
     /// One positive value per record, infinite if censored.
@@ -113,9 +111,9 @@ pub struct Half {
     pub n: usize,
     /// Number of censored values.
     pub censored: usize,
-    /// Median (type 5); none if censored values leave it open.
+    /// Median (type 5); `None` if censored values leave it unknown.
     pub median: Option<f64>,
-    /// What the bootstrap draws.
+    /// The units that the bootstrap draws.
     pub drawn: Clusters,
 }
 
@@ -131,8 +129,8 @@ pub struct MedianRatio {
     pub level: f64,
     /// Draws in which censored values leave the ratio open.
     pub open: usize,
-    /// What makes the interval rough: few records or earthquakes on a side,
-    /// or few draws.
+    /// Why the interval is rough: few records or earthquakes on a side, or few
+    /// draws.
     pub remark: Option<IntervalRemark>,
 }
 
@@ -181,7 +179,8 @@ pub struct Distance {
 ///
 /// # Errors
 /// [`ContrastError`] for a value that is not positive, more than 3000 values,
-/// a record that is twice in a sample or in both, and draws that are refused.
+/// a record that occurs twice in a sample or in both, and draws that are
+/// refused.
 pub fn contrast<S: AsRef<str>>(
     a: ContrastSample<'_, S>,
     b: ContrastSample<'_, S>,

@@ -27,7 +27,7 @@ pub struct CountsFragility {
     pub fitted: Lognormal,
     /// Level of the intervals.
     pub level: f64,
-    /// What the intervals rest on.
+    /// Basis of the intervals.
     pub intervals: Basis,
     /// Median with its interval; an end is open if the likelihood does not
     /// fall so far. No interval if a draw in ten has no fit.
@@ -42,15 +42,15 @@ pub struct CountsFragility {
     pub degrees_of_freedom: Option<usize>,
 }
 
-/// What the intervals of a fit to counts rest on.
+/// Basis of the intervals of a fit to counts.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Basis {
-    /// There are none.
+    /// No intervals.
     None,
-    /// The likelihood of independent stripes: counts alone do not tell
-    /// whether stripes share records.
+    /// The likelihood of independent stripes: counts do not show whether
+    /// stripes share records.
     IndependentStripes,
-    /// A bootstrap: each draw holds its records in all stripes.
+    /// A bootstrap in which each draw has its records in all stripes.
     Drawn(IntervalBasis),
 }
 
@@ -68,7 +68,7 @@ impl fmt::Display for Basis {
 
 as_text!(write Basis);
 
-/// What became of a record at an intensity.
+/// Outcome of a record at an intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordOutcome {
     /// The intensity.
@@ -253,7 +253,7 @@ impl RecordOutcome {
     }
 
     /// The counts at each intensity; none if some record has no outcome at
-    /// one, since the others tell nothing of it.
+    /// one, since the other outcomes say nothing about it.
     #[must_use]
     pub fn stripes(outcomes: &[Self]) -> Option<Vec<Stripe>> {
         let stripes = counted(outcomes, |_| 1);

@@ -35,17 +35,17 @@ use rocking_statistics::{
 /// The shift IM_R of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shift {
-    /// This number, not negative.
+    /// This non-negative number.
     Given(f64),
-    /// The smallest value of the sample, which is left out of the fit.
+    /// The smallest value of the sample; it is left out of the fit.
     Smallest,
     /// The shift of the highest profile likelihood.
     Free,
 }
 
-/// A text that says no shift.
+/// A text that gives no valid shift.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("found `{0}`: expected a number, not negative, or `min` or `free`")]
+#[error("found `{0}`: expected a non-negative number, `min` or `free`")]
 pub struct ShiftError(String);
 
 impl FromStr for Shift {
@@ -77,8 +77,8 @@ impl fmt::Display for Shift {
 }
 
 impl Shift {
-    /// The shift for a sample, and the values that enter above it: all but
-    /// the smallest for [`Shift::Smallest`].
+    /// The shift for a sample, and the values that are fitted above it: all
+    /// but the smallest for [`Shift::Smallest`].
     ///
     /// # Errors
     /// [`FitError`] if the likelihood has no maximum over a free shift.
@@ -102,31 +102,31 @@ impl Shift {
 pub struct Draws {
     /// Number of samples drawn, 2 to 1,000,000.
     pub replicates: usize,
-    /// Repetition: another number gives other draws.
+    /// Seed of the draws.
     pub seed: u64,
 }
 
-/// How a sample is fitted, and what is asked beside the fit.
+/// Options of a fit: method, shift, quantile type, bootstrap and band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitOptions {
     /// How the lognormal distribution is fitted.
     pub method: FitMethod,
     /// The shift IM_R.
     pub shift: Shift,
-    /// Samples of the same records with one dispersion, the fitted one among
-    /// them; none for a dispersion of its own.
+    /// Samples of the same records that share one dispersion, including the
+    /// fitted one; empty if each sample has its own dispersion.
     pub family: Vec<CensoredSample>,
     /// Type of the sample's quantiles.
     pub quantile_type: QuantileType,
     /// Constant c of Eq. 7.
     pub c: f64,
-    /// Bootstrap for intervals; none for no interval.
+    /// Bootstrap for the intervals; `None` for no intervals.
     pub draws: Option<Draws>,
-    /// Earthquakes of the sample's values, which are then drawn; none draws
-    /// records.
+    /// Earthquakes of the sample's values, which the bootstrap then draws;
+    /// `None` draws records.
     pub clusters: Option<Clusters>,
-    /// Intensities at which the probability gets a band, in the unit of the
-    /// sample; needs `draws`.
+    /// Intensities of the probability band, in the unit of the sample; needs
+    /// `draws`.
     pub band: Vec<f64>,
 }
 
@@ -147,23 +147,23 @@ impl Default for FitOptions {
     }
 }
 
-/// Why a procedure on a sample was refused.
+/// Reasons for which a procedure rejects a sample or its options.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProcedureError {
-    /// The values make no fit.
+    /// The sample has no fit.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// The values make no sample.
+    /// The values are no valid sample.
     #[error(transparent)]
     Sample(#[from] SampleError),
     /// A curve that has no capacity at a level.
     #[error(transparent)]
     Capacity(#[from] CapacityError),
-    /// A line through points that make none.
+    /// The points determine no line.
     #[error(transparent)]
     Line(#[from] RegressionError),
-    /// Capacities in one measure that make no fit.
+    /// Capacities in one measure that have no fit.
     #[error("{im}: {source}")]
     Measure {
         /// The intensity measure.
@@ -171,74 +171,76 @@ pub enum ProcedureError {
         /// Why there is no fit.
         source: FitError,
     },
-    /// One value a record.
+    /// The number of values differs from the number of records.
     #[error("{name}: {found} values: expected {expected}, one a record")]
     Length {
-        /// What has another length.
+        /// The quantity with the wrong length.
         name: String,
         /// Its length.
         found: usize,
         /// Number of records.
         expected: usize,
     },
-    /// No record was run up to an intensity.
-    #[error("intensity {0}: no record was run so far")]
+    /// No record was run up to this intensity.
+    #[error("intensity {0}: no record was run up to it")]
     NotRun(f64),
-    /// An EDP level is positive.
+    /// An EDP level that is not positive.
     #[error("EDP level {0}: expected a positive number, or inf")]
     EdpLevel(f64),
-    /// A test that is refused.
+    /// The test rejects its input.
     #[error(transparent)]
     Test(#[from] LillieforsError),
     /// A level of a test.
     #[error("level {0}: expected a number between 0 and 1")]
     Level(f64),
-    /// A third fitted parameter has another null distribution.
-    #[error("a free shift: expected a number, not negative, or min")]
+    /// A free shift with a normality test: a third fitted parameter changes
+    /// the null distribution.
+    #[error("a free shift: expected a non-negative number, or min")]
     FreeShiftTested,
-    /// A free shift maximises a likelihood.
+    /// A free shift with another method than maximum likelihood.
     #[error("shift free with method {0}: expected the method mle")]
     FreeShift(FitMethod),
-    /// One dispersion for several samples.
+    /// A common dispersion with an unsuitable method or shift.
     #[error(
         "dispersion common with method {0} and shift {1}: expected the method \
          mle and a number"
     )]
     Common(FitMethod, Shift),
-    /// A family lacks the fitted sample.
+    /// A family without the fitted sample.
     #[error("dispersion common: expected the samples of one IDA")]
     OtherFamily,
-    /// The smallest value has no bootstrap.
+    /// A bootstrap with the smallest value as the shift.
     #[error(
         "a bootstrap with shift min: a bootstrap of the smallest value gives \
-         no interval, its 95 % hold the dispersion in one sample of five; \
-         expected a shift that is known, such as 1"
+         no valid interval, its 95 % interval contains the dispersion in only \
+         one sample of five; expected a known shift, such as 1"
     )]
     SmallestDrawn,
-    /// A free shift has a likelihood interval.
+    /// A bootstrap with a free shift, which has a likelihood interval.
     #[error(
         "a bootstrap with shift free: expected no bootstrap, since the \
          likelihood gives the interval of the shift"
     )]
     FreeDrawn,
-    /// Censored values leave the smallest one in doubt.
+    /// Censored values with individual limits, which leave the smallest value
+    /// unknown.
     #[error(
-        "{0} values censored at limits of their own with shift min: expected \
-         a shift that is known, such as 1"
+        "{0} values censored at individual limits with shift min: expected a \
+         known shift, such as 1"
     )]
     SmallestLimited(usize),
-    /// A bootstrap needs at least two draws.
+    /// A number of draws out of range.
     #[error("a bootstrap of {0} samples: expected 2 to 1000000")]
     Replicates(usize),
-    /// A band rests on a bootstrap.
+    /// A band without a bootstrap.
     #[error(
         "a band without a bootstrap: expected a number of samples to draw"
     )]
     BandWithoutDraws,
 }
 
-/// A lognormal fragility fitted to a sample, and what the unshifted
-/// statistics give instead.
+/// A lognormal fragility fitted to a sample, and the result of the unshifted
+/// statistics beside it.
 ///
 /// All intensities are in the unit of the sample.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -246,17 +248,17 @@ pub enum ProcedureError {
 pub struct FragilityFit {
     /// Size of the sample, censored values included.
     pub n: usize,
-    /// Values that entered the fit as such.
+    /// Uncensored values in the fit.
     pub n_kept: usize,
     /// Censored values.
     pub n_censored: usize,
     /// Censored values whose limit is known.
     pub n_limited: usize,
-    /// Values left out because they equal the shift `min`.
+    /// Values left out of the fit because they equal the shift `min`.
     pub n_left_out: usize,
     /// Weaknesses of the fit.
     pub remarks: Vec<FitRemark>,
-    /// How the distribution was fitted.
+    /// Method of the fit.
     pub method: FitMethod,
     /// The fitted distribution (SSFL with a shift, USFL without).
     pub fitted: Lognormal,
@@ -278,10 +280,10 @@ pub struct FragilityFit {
     pub im84: Option<f64>,
     /// The fit by the same method without a shift (USFL).
     pub unshifted: Option<Lognormal>,
-    /// What Eqs. 5 to 7 make of the unshifted statistics.
+    /// Eqs. 5 to 7 applied to the unshifted statistics.
     pub transformed: Transformation,
-    /// How many records a precision needs; none if censored values of shared
-    /// earthquakes leave the design effect open.
+    /// Number of records needed for a precision; none if censored values of
+    /// shared earthquakes leave the design effect open.
     pub needed: Option<SampleSize>,
     /// Bootstrap intervals, if draws were requested.
     pub bootstrap: Option<FitIntervals>,
@@ -309,7 +311,7 @@ pub struct Transformation {
     pub shift: f64,
     /// The constant c of Eq. 7.
     pub c: f64,
-    /// Where Eq. 7 ends.
+    /// Upper limit of c in Eq. 7.
     pub c_max: Option<f64>,
     /// Eq. 5 of the median.
     #[serde(serialize_with = "super::if_known")]
@@ -348,15 +350,15 @@ impl Transformation {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BootstrapFits {
-    /// What their intervals rest on.
+    /// Basis of their intervals.
     pub basis: IntervalBasis,
-    /// One a draw; none if it makes no fit.
+    /// One per draw; `None` if the draw has no fit.
     pub fitted: Vec<Option<TotalFragility>>,
 }
 
 impl BootstrapFits {
-    /// A number of a fit, `value` of the sample's own, with the 95 % interval
-    /// of these draws; without one if they give none.
+    /// A number of a fit, `value` for the sample itself, with the 95 %
+    /// interval of these draws if they give one.
     pub(crate) fn estimate(
         &self,
         value: f64,
@@ -372,7 +374,7 @@ impl BootstrapFits {
     }
 
     /// The quantile of a fit at probability p with the 95 % interval of these
-    /// draws, symmetric in its logarithm above the shift that all have.
+    /// draws, symmetric in its logarithm above the common shift.
     pub(crate) fn quantile(
         &self,
         fitted: &TotalFragility,
@@ -393,7 +395,7 @@ impl BootstrapFits {
         found.map(|y| above.unwrap_or(0.0) + libm::exp(y))
     }
 
-    /// All of them in a unit of which one of theirs has `factor`.
+    /// Rescales every fit; one old unit is `factor` new units.
     ///
     /// # Errors
     /// [`LognormalError`] for a factor that is no positive number.
@@ -405,7 +407,7 @@ impl BootstrapFits {
     }
 }
 
-/// One fit of one sample: what every replicate of a bootstrap repeats.
+/// One fit of one sample; each replicate of a bootstrap repeats it.
 struct SampleFit {
     fit: LognormalFit,
     unshifted: Option<Lognormal>,
@@ -448,8 +450,8 @@ impl FitOptions {
         }
     }
 
-    /// The distributions fitted to the draws of a sample; none if the options
-    /// ask for no draws.
+    /// The distributions fitted to the draws of a sample; `None` if the
+    /// options have no draws.
     ///
     /// # Errors
     /// As of [`fit_sample`].
@@ -497,7 +499,7 @@ impl FitOptions {
 }
 
 impl Draws {
-    /// Whether the number of draws is one.
+    /// Checks the number of draws.
     ///
     /// # Errors
     /// [`ProcedureError::Replicates`] unless it lies from 2 to 1,000,000.
@@ -514,7 +516,7 @@ impl Draws {
     }
 }
 
-/// Refuses another number of values than one a record.
+/// Checks that there is one value per record.
 pub(crate) fn check_length(
     name: &str,
     found: usize,
@@ -529,10 +531,10 @@ pub(crate) fn check_length(
 
 /// Fits a lognormal fragility to a sample of capacities.
 ///
-/// With a shift IM_R, the logarithmic mean and the dispersion are those of
-/// the intensities above it (SSFL). Beside the fit stand Eqs. 5 to 7 of the
-/// unshifted statistics: Eq. 5 and Eq. 7 of the same method's unshifted fit,
-/// Eq. 6 of the sample's 16 and 84 % quantiles.
+/// With a shift IM_R, the logarithmic mean and the dispersion are those of the
+/// intensities above it (SSFL). The result also has Eqs. 5 to 7 of the
+/// unshifted statistics: Eq. 5 and Eq. 7 of the unshifted fit by the same
+/// method, Eq. 6 of the sample's 16 and 84 % quantiles.
 ///
 /// ```
 /// use rocking_procedures::{FitOptions, Shift, fit_sample};
@@ -547,7 +549,7 @@ pub(crate) fn check_length(
 ///
 /// # Errors
 /// [`ProcedureError`] for options that exclude each other, or a sample that
-/// makes no fit.
+/// has no fit.
 pub fn fit_sample(
     sample: &CensoredSample,
     options: &FitOptions,
@@ -577,7 +579,7 @@ pub fn fit_sample(
             Band::new(sample, options, &found.fit.distribution, &sampled)
         });
     }
-    // The empirical distribution is that of values with one limit.
+    // With individual limits there is no empirical distribution.
     let ks_distance =
         (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));
     Ok(FragilityFit {

@@ -45,18 +45,18 @@ pub enum FragilityError {
         /// The shift IM_R.
         shift: f64,
     },
-    /// Eq. 7 ends where its denominator vanishes.
+    /// Eq. 7 is undefined from the point on where its denominator vanishes.
     #[error(
         "Eq. 7: undefined for c = {c} (c_max = {c_max}): expected c below ln(median/shift)/dispersion"
     )]
     Scale {
-        /// The constant c asked for.
+        /// The requested constant c.
         c: f64,
         /// The limit ln(median/shift)/dispersion.
         c_max: f64,
     },
-    /// The constant c is a number, not negative.
-    #[error("Eq. 7: c = {0}: expected a finite number, not negative")]
+    /// A constant c that is negative or not finite.
+    #[error("Eq. 7: c = {0}: expected a finite, non-negative number")]
     Constant(f64),
     /// Parameters that make no distribution.
     #[error(transparent)]
@@ -103,8 +103,8 @@ pub fn eq6(im16: f64, im84: f64, shift: f64) -> Result<f64, FragilityError> {
     Ok(0.5 * log((im84 - shift) / (im16 - shift)))
 }
 
-/// The constant c at which Eq. 7 ends, ln(IM50/IM_R)/beta_o: infinite for
-/// no shift.
+/// The upper limit of c in Eq. 7, ln(IM50/IM_R)/beta_o; infinite without a
+/// shift.
 ///
 /// # Errors
 /// [`FragilityError`] unless the median is above the shift and the
@@ -140,7 +140,7 @@ pub fn c_max(
 /// ```
 ///
 /// # Errors
-/// [`FragilityError`] if Eq. 7 has no value; beyond c_max it carries that
+/// [`FragilityError`] if Eq. 7 has no value; beyond c_max it contains that
 /// limit.
 pub fn eq7(
     median: f64,

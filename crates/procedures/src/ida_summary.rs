@@ -1,4 +1,4 @@
-//! What the curves of a suite come to.
+//! Summary of the curves of a suite.
 
 use rocking::ida::{Analysis, IdaCurve, ResolutionCounts};
 use rocking_statistics::ExtendedSample;
@@ -16,7 +16,7 @@ pub struct IdaSummary {
     /// Median first overturning intensity PGA/(g tan alpha), infinite if half
     /// of the curves stand; none for no curve.
     pub median_overturning_im: Option<f64>,
-    /// How many analyses each arithmetic resolved.
+    /// Number of analyses that each arithmetic resolved.
     pub resolution: ResolutionCounts,
     /// Levels above a first overturning at which the block stands again; none
     /// if they were not sought.

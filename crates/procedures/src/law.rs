@@ -75,14 +75,14 @@ pub struct LawFragility {
     pub fitted: Lognormal,
     /// The error of the model.
     pub model_error: ModelError,
-    /// The fragility of a real object: that error is in it.
+    /// The fragility of a real object, with the model error included.
     pub total: Lognormal,
-    /// Where it comes from, in words.
+    /// Its origin, in words.
     pub origin: String,
 }
 
 impl LawFragility {
-    /// Where the fragilities of the law come from, in words.
+    /// Origin of the fragilities of the law, in words.
     #[must_use]
     pub fn origin(edp: f64) -> String {
         let what = match edp.is_finite() {

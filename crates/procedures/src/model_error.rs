@@ -1,5 +1,5 @@
-//! How far the model is off a real object: its bias and its dispersion, which
-//! enter every decision.
+//! Bias and dispersion of the model against real objects; both enter every
+//! decision.
 
 use std::fmt;
 
@@ -11,17 +11,17 @@ use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::streams::Streams;
 use rocking_statistics::{Estimate, Interval, Lognormal, Range};
 
-/// Where the defaults come from.
+/// Source of the default values.
 const SOURCE: &str = "490 shaking-table tests of two granite rocks (Saifullah and Wittich \
      2021)";
 
 /// Least and largest bias.
 const BIAS: (f64, f64) = (0.1, 10.0);
 
-/// A bias or a dispersion, with its range; without one it counts as known.
+/// A bias or a dispersion, with its range; without a range it counts as known.
 pub type ModelErrorPart = Estimate;
 
-/// A text that says no bias or no dispersion of the model.
+/// A text that gives no valid bias or dispersion of the model.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("found `{found}`: expected {expected}")]
 pub struct ModelErrorFault {
@@ -67,7 +67,7 @@ impl Default for ModelError {
 }
 
 impl ModelError {
-    /// No error: the records alone.
+    /// No model error, only the scatter of the records.
     #[must_use]
     pub fn none() -> Self {
         let (bias, dispersion) = (Estimate::exact(1.0), Estimate::exact(0.0));
@@ -97,7 +97,7 @@ impl ModelError {
         Self { bias: of(1.0, low, high), dispersion: of(0.2, 0.0, 0.25) }
     }
 
-    /// This error with another bias or dispersion, where one is given.
+    /// This error with another bias or dispersion, if one is given.
     #[must_use]
     pub fn or(
         self,
@@ -159,7 +159,7 @@ fn ranged(value: f64, low: f64, high: f64) -> Option<Estimate> {
     Estimate::try_new(value, interval, Range::NotNegative).ok()
 }
 
-/// A value, alone or with its range.
+/// A value, with or without its range.
 fn part(
     text: &str,
     expected: &'static str,
@@ -202,9 +202,9 @@ fn drawn(of: &Estimate, u: f64, range: Range) -> f64 {
 }
 
 impl BootstrapFits {
-    /// These fits, each with a bias and a dispersion of its own, drawn over
-    /// their ranges from the stream of `name`: their intervals then hold what
-    /// records and model leave open. A dispersion drawn below 0.01 counts
+    /// These fits, each with its own bias and dispersion, drawn over their
+    /// ranges from the stream of `name`: their intervals then include the
+    /// uncertainty of records and model. A dispersion drawn below 0.01 counts
     /// as 0.
     #[must_use]
     pub fn with(mut self, error: &ModelError, name: &str) -> Self {

@@ -11,11 +11,11 @@ use rocking_statistics::normality::{
 };
 use rocking_statistics::{CensoredSample, Estimate, ExtendedSample, Sample};
 
-/// Values simulated for the smallest value as shift, where no number of
-/// samples is given: of 100 to 100,000 samples.
+/// Values to simulate if the smallest value is the shift and no number of
+/// samples is given: in 100 to 100,000 samples.
 const VALUES: u64 = 100_000_000;
 
-/// What is tested, and how its null distribution is found.
+/// Options of the tests of normality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalityOptions {
     /// The logarithms above this shift are tested; none tests the values
@@ -25,7 +25,7 @@ pub struct NormalityOptions {
     pub level: f64,
     /// Samples to simulate; none takes the table.
     pub replicates: Option<u64>,
-    /// Repetition of the simulation.
+    /// Seed of the simulation.
     pub seed: u64,
 }
 
@@ -51,7 +51,7 @@ pub struct Normality {
     /// Its p-value, with the interval of its Monte Carlo error (95 %).
     #[serde(serialize_with = "keys::if_value")]
     pub p_value: Option<Estimate>,
-    /// How the p-value was found.
+    /// Origin of the p-value.
     pub method: Option<NullSource>,
     /// Simulated samples behind the p-value; none for the table.
     pub replicates: Option<usize>,
@@ -89,8 +89,8 @@ pub struct OtherTest {
 /// Tests whether a sample is normal, or lognormal above a shift.
 ///
 /// The p-value of Lilliefors' test comes from the project's Monte Carlo table,
-/// or from a simulation where replicates are given; then those of the other
-/// tests are simulated, too.
+/// or from a simulation if replicates are given; the p-values of the other
+/// tests are then simulated, too.
 ///
 /// ```
 /// use rocking_procedures::{NormalityOptions, test_normality};
@@ -103,8 +103,8 @@ pub struct OtherTest {
 /// ```
 ///
 /// # Errors
-/// [`ProcedureError`] for a level outside (0, 1), a free shift, or a
-/// simulation that is refused; a test that does not apply is a result.
+/// [`ProcedureError`] for a level outside (0, 1), a free shift, or invalid
+/// replicates of a simulation; a test that does not apply is a result.
 pub fn test_normality(
     sample: &CensoredSample,
     options: &NormalityOptions,

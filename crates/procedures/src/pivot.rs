@@ -1,4 +1,4 @@
-//! What the motions of a suite ask of the pivot: friction and normal force.
+//! Friction and normal force that the motions of a suite need at the pivot.
 
 use rayon::prelude::*;
 
@@ -8,8 +8,8 @@ use rocking::integrator::Forces;
 
 /// Friction and normal force that the analyses of a suite need at the pivot.
 ///
-/// The model does not slide: where many analyses need more friction than the
-/// ground gives, it says more than it knows.
+/// The model does not slide. Its results are not valid if many analyses need
+/// more friction than the ground gives.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct PivotForces {
@@ -132,9 +132,9 @@ impl PivotForces {
     }
 }
 
-/// Whether a record asks for more friction than `friction` at one of the
-/// levels of its curve below the intensity `below_im`. The strongest motion is
-/// examined first, and the first that asks for more decides.
+/// Whether a record needs more friction than `friction` at one of the levels
+/// of its curve below the intensity `below_im`. The strongest motion is
+/// analysed first; the search ends at the first level that needs more.
 ///
 /// # Errors
 /// As [`forces_at`].

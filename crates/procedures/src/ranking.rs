@@ -16,8 +16,8 @@ pub struct CandidateMeasure {
     pub im: String,
     /// Its value for each record, scaled to PGA/(g tan alpha) = 1.
     pub at_uplift: Vec<f64>,
-    /// Whether it grows with the square of the acceleration, as Arias
-    /// intensity does; then its root is ranked.
+    /// Whether it is proportional to the square of the acceleration, as Arias
+    /// intensity is; then its root is ranked.
     pub squared: bool,
 }
 
@@ -45,7 +45,7 @@ impl Covariate {
     }
 }
 
-/// Intensity measures in the order in which they were asked for.
+/// Intensity measures in the requested order.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Ranking {
@@ -54,20 +54,20 @@ pub struct Ranking {
     /// Records that do not reach the level; they enter by the intensity up
     /// to which they were run.
     pub censored: usize,
-    /// What the intervals rest on, the same draws for all measures.
+    /// Basis of the intervals: the same draws for all measures.
     #[serde(flatten)]
     pub basis: IntervalBasis,
-    /// Why there is no slope, where a covariate was given and there is none.
+    /// Why there is no slope although a covariate was given.
     pub no_slope: Option<String>,
     /// The measures.
     pub measures: Vec<MeasureRank>,
 }
 
-/// What was found of one intensity measure.
+/// Results for one intensity measure.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct MeasureRank {
-    /// Its name, behind `root of` where its root is ranked.
+    /// Its name, after `root of` if its root is ranked.
     pub im: String,
     /// Median of the capacities, in the unit of the measure.
     pub median: f64,

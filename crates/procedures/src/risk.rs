@@ -1,5 +1,5 @@
-//! How often a year a fragility's damage is to be expected under a hazard
-//! curve, and how probable it is in some years.
+//! Annual frequency of damage of a fragility under a hazard curve, and
+//! probability of damage in some years.
 
 use libm::expm1;
 use thiserror::Error;
@@ -27,7 +27,7 @@ pub struct Risk {
     pub first: HazardPoint,
     /// Its last point: what lies beyond it is bounded, not known.
     pub last: HazardPoint,
-    /// What was set aside of the hazard curve.
+    /// Parts of the hazard curve that were set aside.
     pub remarks: Vec<HazardRemark>,
     /// The time T of the probabilities in years.
     pub years: f64,
@@ -52,14 +52,14 @@ pub struct FragilityInput {
     pub fragility: String,
     /// The fragility.
     pub fitted: TotalFragility,
-    /// What the draws of its sample make of it; none for no interval.
+    /// Its values in the draws of its sample; `None` for no interval.
     pub sampled: Option<BootstrapFits>,
 }
 
 impl FragilityInput {
-    /// A fragility of records, and what the draws of its sample make of it,
-    /// with the error of the model; the name is that of the stream from which
-    /// the draws get their errors.
+    /// A fragility of records and its values in the draws of its sample, with
+    /// the model error; the stream that gives the draws their errors is named
+    /// after the fragility.
     ///
     /// # Errors
     /// [`LognormalError`] for an error that [`TotalFragility`] refuses.
@@ -74,15 +74,15 @@ impl FragilityInput {
     }
 }
 
-/// What few records and the model leave open of a frequency; the hazard curve
-/// counts as known.
+/// Uncertainty of a frequency by the choice of records and the model error;
+/// the hazard curve is taken as known.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SamplingInterval {
-    /// What it rests on.
+    /// Basis of the interval.
     #[serde(flatten)]
     pub basis: IntervalBasis,
-    /// The error of the model in each draw; none for the records alone.
+    /// The model error in each draw; `None` if only the records are drawn.
     pub model_error: Option<ModelError>,
     /// Annual frequency in 1/year, of the lower bound of truncation, with an
     /// interval up to the upper end of the upper bound.
@@ -145,8 +145,8 @@ pub enum RiskError {
 /// usual curve of 20 points). Damage is a Poisson process of that frequency:
 /// the probability of damage in T years is 1 - exp(-lambda T).
 ///
-/// The 95 % interval is that of ln(lambda) over the draws of the fragility's
-/// sample, earthquakes where they are known
+/// The 95 % interval is computed for ln(lambda) over the draws of the
+/// fragility's sample, of earthquakes if they are known
 /// ([`Clusters::estimate`](rocking_statistics::Clusters::estimate)).
 ///
 /// ```

@@ -1,8 +1,9 @@
-//! A block against shaking-table tests: what the model is worth.
+//! Comparison of a block with shaking-table tests, to measure the error of the
+//! model.
 //!
 //! A test is one motion of the table at one level, and whether the specimen
-//! overturned. Tests of one motion at several levels are no independent
-//! draws: the unit of every interval is the motion.
+//! overturned. Tests of one motion at several levels are not independent: the
+//! unit of every interval is the motion.
 
 mod capacities;
 mod error;
@@ -27,13 +28,13 @@ pub use error::ShakingError;
 pub use numbers::ComputedTests;
 
 rocking::named! {
-    /// What became of a specimen in a test.
+    /// Outcome of a specimen in a test.
     pub enum TestFate: "fate" {
         /// It overturned.
         Overturned = "overturned",
-        /// It did not.
+        /// It did not overturn.
         Stood = "stood",
-        /// Nobody knows: the test is counted, and left out.
+        /// The outcome is unknown: the test is counted, and left out.
         Unknown = "unknown",
     }
 }
@@ -43,11 +44,11 @@ rocking::named! {
 pub struct ShakingTest {
     /// The motion of the table as it was run.
     pub record: Accelerogram,
-    /// Name of the motion that the test repeats, at its own level.
+    /// Name of the motion that the test repeats, at some level.
     pub motion: String,
-    /// What became of the specimen.
+    /// Outcome of the specimen.
     pub fate: TestFate,
-    /// Values of the test by name, for measures that are a column.
+    /// Values of the test by name, for measures that are columns.
     pub columns: BTreeMap<String, f64>,
 }
 
@@ -64,10 +65,10 @@ pub enum Slenderness {
     },
 }
 
-/// How a block is compared with tests.
+/// Options of a comparison with tests.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestOptions {
-    /// The block, or what is known of it.
+    /// The block, or its frequency parameter.
     pub slenderness: Slenderness,
     /// Coefficient of restitution.
     pub restitution: Restitution,
@@ -75,21 +76,20 @@ pub struct TestOptions {
     pub model: Model,
     /// Gravity in m/s2.
     pub gravity_m_s2: f64,
-    /// Intensity measures that predict the same fates by themselves.
+    /// Intensity measures that predict the same outcomes without the block.
     pub measures: Vec<IntensityMeasure>,
-    /// Draws of motions with all their tests.
+    /// Draws of motions, each with all its tests.
     pub draws: Draws,
 }
 
 /// Compares a block with shaking-table tests.
 ///
-/// Each record is scaled until the block first overturns, at 0.1 of the
-/// onset of rocking and bisected; over the record that is the test's
-/// capacity factor c. A record that does not overturn the block up to 100
-/// times the onset has the last level. 1/c, and each measure, predict the
-/// fates by a lognormal fragility of the highest likelihood (probit). All
-/// intervals draw motions with all their tests. Tests of unknown fate are
-/// left out.
+/// Each record is scaled until the block first overturns, at 0.1 of the onset
+/// of rocking and bisected; over the record that is the test's capacity factor
+/// c. A record that does not overturn the block up to 100 times the onset has
+/// the last level. 1/c, and each measure, predict the fates by a lognormal
+/// fragility of the highest likelihood (probit). All intervals draw motions
+/// with all their tests. Tests with an unknown outcome are left out.
 ///
 /// # Errors
 /// [`ShakingError`] for fewer than three motions, fates of one kind, fates
@@ -145,22 +145,22 @@ pub struct TestComparison {
     pub replicates: usize,
     /// Repetition of the draws.
     pub seed: u64,
-    /// What makes the intervals rough, if anything does.
+    /// Why the intervals are rough, if they are.
     pub remark: Option<String>,
     /// The block as a predictor of fates.
     pub computed: Predictor,
     /// Intensity measures as predictors of the same fates.
     pub rivals: Vec<Predictor>,
-    /// Measures that are no predictor, or have no fragility of the computed
-    /// fates.
+    /// Measures that have no fit to the measured outcomes, or none to the
+    /// computed ones.
     #[serde(default)]
     pub unfitted: Vec<UnfittedMeasure>,
     /// Predicted and observed shares of overturning, by tenths of the tests
     /// in ascending order of the predicted probability.
     pub reliability: Vec<ReliabilityClass>,
-    /// How well the tests repeat themselves.
+    /// Repeatability of the tests.
     pub repeatability: Repeatability,
-    /// Tests in which the block stands although it overturns at a lower
+    /// Tests in which the block stays up although it overturns at a lower
     /// level of the motion.
     pub resurrected: Resurrected,
     /// Whether the scatter of the model acts on the whole capacity, or on
@@ -173,7 +173,7 @@ pub struct TestComparison {
     pub each: Vec<TestResult>,
 }
 
-/// How well a number of each test predicts the fates.
+/// How well one number per test predicts the outcomes.
 ///
 /// The probability of overturning is Phi(ln(x/m)/s) of the number x; m and s
 /// are of the highest likelihood. Probabilities that predict are of a fit
@@ -181,7 +181,7 @@ pub struct TestComparison {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Predictor {
-    /// What predicts: the block, or an intensity measure.
+    /// The block, or an intensity measure.
     pub predictor: String,
     /// Share of fates that are right: of the block as computed, of a measure
     /// by a predicted probability above 0.5.
@@ -200,7 +200,7 @@ pub struct Predictor {
     pub log_likelihood: f64,
 }
 
-/// A measure that has no fit.
+/// A measure without a fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct UnfittedMeasure {
@@ -225,7 +225,7 @@ pub struct ReliabilityClass {
     pub observed: Estimate,
 }
 
-/// How well tests repeat themselves.
+/// Repeatability of tests.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Repeatability {
@@ -244,7 +244,7 @@ pub struct Repeatability {
     pub dispersion: Option<f64>,
 }
 
-/// Tests at levels at which the block stands again.
+/// Tests at levels at which the block stays up again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Resurrected {
@@ -252,15 +252,16 @@ pub struct Resurrected {
     pub tests: usize,
     /// Number of them that overturned the specimen.
     pub overturned: usize,
-    /// Number expected of their first overturning, by a fit to the others.
+    /// Expected number by their first overturning, from a fit to the other
+    /// tests.
     pub expected: Option<f64>,
-    /// Share of right fates of all tests if the block at the level of the
-    /// test decides instead of the first overturning.
+    /// Share of correct outcomes over all tests if the response at the level
+    /// of the test decides instead of the first overturning.
     pub right_at_level: f64,
 }
 
-/// Log-likelihood of the fates above the onset of rocking, g tan(alpha)
-/// (g alpha for Eq. 2), by what the scatter of the model multiplies.
+/// Log-likelihood of the fates above the onset of rocking, g tan(alpha) (g
+/// alpha for Eq. 2), by the quantity that the scatter of the model multiplies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct OnsetComparison {

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::shaking::{ShakingTest, TestFate};
 
-/// Column of the fates, where no other one is named.
+/// Default column of the outcomes.
 pub const FATE_COLUMN: &str = "fate";
 /// Column of the motion that a test repeats, if there is no `event`.
 const MOTION_COLUMN: &str = "motion";
@@ -19,7 +19,7 @@ const SCALE_COLUMN: &str = "scale";
 /// Faults that one message shows, at most.
 const MOST_SHOWN: usize = 200;
 
-/// What a cell of fates holds.
+/// Contents of a cell of the column of outcomes.
 const FATES: &str = "overturned, stood or unknown, or 1, 0 or an empty cell";
 
 /// All faults of a table of tests, in the order of its lines.
@@ -35,14 +35,13 @@ fn shown(faults: &[String]) -> String {
     let (first, more) = faults.split_at(faults.len().min(MOST_SHOWN));
     let mut text = first.join("\n");
     if !more.is_empty() {
-        text += &format!("\nand {} faults more", more.len());
+        text += &format!("\nand {} more faults", more.len());
     }
     text
 }
 
 impl TestFate {
-    /// The fate that a cell of a table states: a name, `1` or `0`, or
-    /// nothing.
+    /// The outcome in a cell of a table: a name, `1` or `0`, or nothing.
     ///
     /// ```
     /// use rocking_procedures::shaking::TestFate;
@@ -72,14 +71,14 @@ impl ShakingTest {
     }
 }
 
-/// How the tests of a table are read from its members.
+/// Reader of the tests of a table from its members.
 #[derive(Clone, Copy, Debug)]
 pub struct TestTable<'a> {
     /// The table, in messages.
     pub path: &'a str,
     /// Column of the fates.
     pub fate: &'a str,
-    /// What is done to every motion before it is scaled.
+    /// Processing of every motion before it is scaled.
     pub processing: Processing,
 }
 
@@ -112,9 +111,9 @@ impl TestTable<'_> {
             let name = member.accelerogram.name();
             if let Some(before) = lines.insert(name.to_owned(), line) {
                 faults.push(format!(
-                    "{place}: test {name:?} is on line {before}, too: \
-                     expected a name of its own, in a column `name` if one \
-                     file has several tests"
+                    "{place}: test {name:?} is also on line {before}: \
+                     expected a distinct name, in a column `name` if one file \
+                     has several tests"
                 ));
             }
             if has_columns {
@@ -156,7 +155,7 @@ impl TestTable<'_> {
             lacks(
                 "event",
                 "the motion that each test repeats, in a column `event` or \
-                 `motion`; a test of its own motion has its own name there",
+                 `motion`; a test that repeats no other has a unique name there",
             );
         }
         faults

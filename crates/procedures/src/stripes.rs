@@ -10,7 +10,7 @@ use rocking_statistics::ExtendedSample;
 pub struct StripeResponses {
     /// The intensity, in the unit of the curves.
     pub intensity: f64,
-    /// Records that were run so far.
+    /// Records that were run up to this intensity.
     pub n: usize,
     /// 16 % quantile of the EDP; infinite if overturned.
     pub edp16: f64,
@@ -20,10 +20,10 @@ pub struct StripeResponses {
     pub edp84: f64,
     /// Records that overturn.
     pub overturned: usize,
-    /// Records that were not run so far, or stood at the analysis before and
-    /// overturned at the one after; they are left out, while those that
-    /// overturned before are not: the quantiles and the share that overturns
-    /// are too high.
+    /// Records that were not run up to this intensity, or stood at the
+    /// analysis before and overturned at the one after. They are left out, but
+    /// records that overturned before are not: the quantiles and the share
+    /// that overturns are too high.
     pub open: usize,
     /// Records at or above the EDP level, which a fit takes as of n: none
     /// without a level, and none if a record is open.

@@ -1,4 +1,4 @@
-//! A sample in a few numbers.
+//! Summary of a sample.
 
 use rocking_statistics::boxplot::BoxplotError;
 use rocking_statistics::quantile::QuantileError;
@@ -14,7 +14,7 @@ pub struct Summary {
     pub censored: usize,
     /// Type of all quantiles, 1 to 9.
     pub quantile_type: u8,
-    /// The quantiles asked for, in their order.
+    /// The requested quantiles, in their order.
     pub quantiles: Vec<Quantile>,
     /// Box, notch, whiskers and outliers.
     #[serde(serialize_with = "super::or_reason")]

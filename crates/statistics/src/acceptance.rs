@@ -2,7 +2,7 @@
 //!
 //! Levels share records, so the share of accepted ones scatters widely about
 //! its expectation even under the null. The Gaussian-score bootstrap gives
-//! that scatter for the correlation at hand.
+//! that scatter for the observed correlation.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -16,11 +16,11 @@ use crate::streams::{Streams, standard_normal};
 use rocking::number::dispatch::{Isa, Kernel};
 use rocking::stop;
 
-/// Why a null band was refused.
+/// Why a null band cannot be simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AcceptanceError {
-    /// Every level has the same records.
+    /// Levels with different numbers of records.
     #[error(
         "level {level} has {found} values: expected {expected}, as the first"
     )]
@@ -32,12 +32,12 @@ pub enum AcceptanceError {
         /// The first level's.
         expected: usize,
     },
-    /// A level's values make no scores.
+    /// A level without scores.
     #[error("level {level}: {source}")]
     Scores {
         /// Place of the level, from 1.
         level: usize,
-        /// What is wrong with its values.
+        /// The fault of its values.
         #[source]
         source: LillieforsError,
     },

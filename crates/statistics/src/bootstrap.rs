@@ -38,9 +38,9 @@ impl BootstrapEstimate {
     }
 }
 
-/// Draws with replacement, the same for every statistic that uses them:
-/// blocks and levels stay paired. G of G clusters are drawn, each with all
-/// its records; without clusters n of n records.
+/// Draws with replacement, the same for every statistic that uses them, so
+/// that blocks and levels stay paired. G of G clusters are drawn, each with
+/// all its records; without clusters n of n records.
 ///
 /// Draw i comes from stream i of the family of that name and seed.
 ///

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::{ExtendedSample, Interval, QuantileType};
 
-/// Why a boxplot was refused.
+/// Why a sample has no boxplot.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BoxplotError {
@@ -76,7 +76,7 @@ pub struct MedianInterval {
     pub interval: Interval,
     /// Rank of the lower one, from 1; the upper one's is n + 1 minus it.
     pub rank: usize,
-    /// Coverage for a continuous distribution, at least the level asked for.
+    /// Coverage for a continuous distribution, at least the requested level.
     pub coverage: f64,
 }
 
@@ -116,9 +116,9 @@ impl Boxplot {
     }
 }
 
-/// The shortest symmetric pair of order statistics that covers the median of
-/// a continuous distribution with at least probability `level`; none if the
-/// sample's range doesn't.
+/// The shortest symmetric pair of order statistics that covers the median of a
+/// continuous distribution with at least probability `level`; `None` if the
+/// range of the sample does not.
 ///
 /// The interval (x_(k), x_(n+1-k)) covers with probability
 /// 1 - 2 P(B <= k - 1), B binomial (n, 1/2).

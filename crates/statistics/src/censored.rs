@@ -1,4 +1,4 @@
-//! Values, some of them censored at limits of their own.
+//! Values, some of them censored at individual limits.
 
 use super::lognormal::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals,
@@ -26,8 +26,8 @@ pub struct CensoredSample {
 }
 
 impl CensoredSample {
-    /// These values, and the limits of those that are censored at a known
-    /// one; a missing limit at the end counts as unknown.
+    /// These values, with the known limits of censored ones; a missing limit
+    /// at the end counts as unknown.
     ///
     /// # Errors
     /// [`SampleError`] if there is no value, or one is NaN or minus infinity.
@@ -62,7 +62,7 @@ impl CensoredSample {
         &self.values
     }
 
-    /// The limits of the values that are censored at a known one.
+    /// The known limits of censored values.
     pub fn limits(&self) -> &[Option<f64>] {
         &self.limits
     }
@@ -81,7 +81,7 @@ impl CensoredSample {
         Self { values, limits }
     }
 
-    /// The values above the smallest one, which is given beside them.
+    /// The smallest value, and the sample of the values above it.
     #[must_use]
     pub fn above_smallest(&self) -> (f64, Self) {
         let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -109,8 +109,8 @@ impl CensoredSample {
         self.limits.iter().flatten().count()
     }
 
-    /// A quantile of the values; none if a value that is censored below it
-    /// leaves it open.
+    /// A quantile of the values; none if it is unknown because a value is
+    /// censored below it.
     #[must_use]
     pub fn quantile(
         &self,
@@ -124,8 +124,8 @@ impl CensoredSample {
     }
 
     /// The points of the sample's distribution: the k-th value of n at the
-    /// probability (k - 1/2)/n, as [`QuantileType`] 5 has it. Values that
-    /// censoring leaves open are left out.
+    /// probability (k - 1/2)/n, as [`QuantileType`] 5 has it. Values that are
+    /// unknown because of censoring are left out.
     ///
     /// ```
     /// use rocking_statistics::CensoredSample;

@@ -1,7 +1,7 @@
-//! Clusters of records: records of one earthquake are no independent draws.
+//! Clusters of records: records of one earthquake are not independent.
 //!
-//! A resampling draws clusters, and takes all records of each. Where every
-//! record is a cluster of its own, it draws records.
+//! A resampling draws clusters with all their records. If every record is a
+//! separate cluster, it draws records.
 
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
@@ -43,15 +43,15 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// Earthquakes from one label a record: records with the same label make
+    /// Earthquakes from one label per record: records with the same label form
     /// a cluster.
     #[must_use]
     pub fn from_labels(labels: impl IntoIterator<Item: AsRef<str>>) -> Self {
         Self::of_unit(SamplingUnit::Earthquake, labels)
     }
 
-    /// Earthquakes from one label a record, or the `n` records themselves if
-    /// no label is given.
+    /// Earthquakes from one label per record, or the `n` records themselves if
+    /// there are no labels.
     #[must_use]
     pub fn of_events<S: AsRef<str>>(events: &[S], n: usize) -> Self {
         match events {
@@ -60,7 +60,7 @@ impl Clusters {
         }
     }
 
-    /// Clusters that are this unit from one label a record.
+    /// Clusters with this unit, from one label per record.
     ///
     /// ```
     /// use rocking_statistics::clusters::{Clusters, SamplingUnit};
@@ -121,13 +121,13 @@ impl Clusters {
         &self.members[cluster]
     }
 
-    /// Whether each record is a cluster of its own.
+    /// Whether each record is a separate cluster.
     #[must_use]
     pub fn is_singletons(&self) -> bool {
         self.count() == self.records()
     }
 
-    /// These records alone, in this order.
+    /// Only these records, in this order.
     #[must_use]
     pub fn part(&self, records: &[usize]) -> Self {
         let labels = records.iter().map(|record| self.of[*record].to_string());
@@ -174,8 +174,8 @@ impl Clusters {
     /// Share of the variance of values that lies between clusters, at least 0:
     /// (B - W)/(B + (n_0 - 1) W) with the mean squares B between and W within
     /// clusters, n_0 = (n - sum n_g^2/n)/(G - 1) (analysis of variance, one
-    /// way). None of values that are not all finite, of a single cluster, or
-    /// if no cluster has two records.
+    /// way). `None` for values that are not all finite, for a single cluster,
+    /// and if no cluster has two records.
     ///
     /// ```
     /// use rocking_statistics::clusters::Clusters;
@@ -206,14 +206,15 @@ impl Clusters {
     }
 
     /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
-    /// none of a single cluster.
+    /// `None` for a single cluster.
     #[must_use]
     pub fn student(&self, level: f64) -> Option<f64> {
         student(self.degrees_of_freedom(), level)
     }
 }
 
-/// Student's t at a two-sided level; none of no number of degrees of freedom.
+/// Student's t at a two-sided level; `None` if the degrees of freedom are not
+/// a number.
 pub(super) fn student(freedom: f64, level: f64) -> Option<f64> {
     let t = StudentsT::new(0.0, 1.0, freedom).ok()?;
     Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())

@@ -4,17 +4,19 @@ use std::fmt;
 
 use thiserror::Error;
 
-/// Why a number, an interval or both were refused.
+/// Why a number, an interval or both were rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EstimateError {
-    /// An interval runs from its low end to its high end.
-    #[error("interval from {0} to {1}: expected rising numbers")]
+    /// The low end is above the high end, or an end is NaN.
+    #[error(
+        "interval from {0} to {1}: expected a low end not above the high end"
+    )]
     Ends(f64, f64),
     /// A number that its quantity cannot take.
     #[error("{0}: expected a number from {1}")]
     Range(f64, Interval),
-    /// The estimator gives intervals that hold the value.
+    /// The interval does not contain the value.
     #[error("{0}: expected a value in its interval, {1}")]
     Outside(f64, Interval),
 }
@@ -42,7 +44,7 @@ impl Range {
     }
 
     /// A number of the range on the scale on which its estimators scatter
-    /// alike: the logarithm of a positive number, itself otherwise.
+    /// alike: the logarithm for positive quantities, else the number itself.
     #[must_use]
     pub fn scale(self, x: f64) -> f64 {
         match self {
@@ -51,8 +53,7 @@ impl Range {
         }
     }
 
-    /// The number that [`Self::scale`] maps there; beyond the scale, the end
-    /// of the range.
+    /// The inverse of [`Self::scale`]; beyond the scale, the end of the range.
     #[must_use]
     pub fn unscale(self, y: f64) -> f64 {
         match self {
@@ -100,7 +101,7 @@ impl Interval {
         Err(EstimateError::Ends(low, high))
     }
 
-    /// Ends that rise by their construction, which each caller names.
+    /// For ends that rise by construction; each caller says why.
     pub(crate) fn rising(low: f64, high: f64) -> Self {
         debug_assert!(low <= high, "{low} {high}");
         Self { low, high }
@@ -122,7 +123,7 @@ impl Interval {
         (self.low, self.high)
     }
 
-    /// Whether the interval holds a number.
+    /// Whether the interval contains a number.
     #[must_use]
     pub fn holds(self, x: f64) -> bool {
         self.low <= x && x <= self.high
@@ -162,8 +163,8 @@ impl fmt::Display for Interval {
     }
 }
 
-/// A value, and its interval if it has one. The level stands beside it, once
-/// for all estimates of a result.
+/// A value, and its interval if it has one. The level is a separate field,
+/// once for all estimates of a result.
 ///
 /// ```
 /// use rocking_statistics::{Estimate, Interval, Range};
@@ -191,7 +192,7 @@ impl Estimate {
         Self { value, interval: None }
     }
 
-    /// A value whose estimator gives intervals that hold it.
+    /// A value with an interval that contains it.
     ///
     /// # Errors
     /// [`EstimateError`] for a value or a finite end that lies outside the
@@ -213,8 +214,7 @@ impl Estimate {
         }
     }
 
-    /// A value in its interval by their construction, which each caller
-    /// names.
+    /// For a value inside its interval by construction; each caller says why.
     pub(crate) fn inside(value: f64, interval: Interval) -> Self {
         debug_assert!(interval.holds(value), "{value} {interval:?}");
         Self { value, interval: Some(interval) }
@@ -268,8 +268,7 @@ impl Estimate {
     }
 }
 
-/// Written as `point`, `low` and `high`; `null` is an end that is open or not
-/// there.
+/// Written as `point`, `low` and `high`; `null` is an open or missing end.
 impl serde::Serialize for Estimate {
     fn serialize<S: serde::Serializer>(
         &self,

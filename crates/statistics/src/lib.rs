@@ -10,9 +10,10 @@
 //! | a value and an interval | a checked pair | [`Estimate`] |
 //! | a seed's name | random numbers with the same bits everywhere | [`streams`] |
 //!
-//! A sample is checked once, when it is made; what takes one relies on it.
+//! A sample is checked once, when it is made; functions that take one rely on
+//! it.
 //!
-//! The feature `serde`, off by default, writes names of choices.
+//! Results and names are `serde::Serialize`.
 
 #![deny(missing_docs)]
 

@@ -2,9 +2,9 @@
 //!
 //! Lilliefors, "On the Kolmogorov-Smirnov test for normality with mean and
 //! variance unknown", JASA 62 (1967) 399. The null distribution of D depends
-//! on n alone. [`LillieforsTable`] holds critical values simulated by
-//! [`NullDistribution`] and p-values between them; published tables and
-//! other packages' are not used.
+//! on n alone. [`LillieforsTable`] has critical values simulated by
+//! [`NullDistribution`] and p-values between them; published tables and other
+//! packages' are not used.
 
 mod assess;
 pub(crate) mod fast;
@@ -22,7 +22,7 @@ pub use table::{LillieforsTable, TabledPValue};
 
 use super::{Estimate, Sample, normal};
 
-/// Why the test was refused.
+/// Why the test was rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LillieforsError {
@@ -37,7 +37,7 @@ pub enum LillieforsError {
     /// The values don't vary (to 1e-12 of their mean).
     #[error("the values do not vary: expected a positive standard deviation")]
     Degenerate,
-    /// A null distribution holds for one size.
+    /// A sample of another size than the null distribution.
     #[error("{found} values: expected {expected}, the size simulated")]
     Size {
         /// Size of the sample.
@@ -45,7 +45,7 @@ pub enum LillieforsError {
         /// Size simulated.
         expected: usize,
     },
-    /// A test holds up to a size.
+    /// A sample that is too large for the test.
     #[error("{found} values: expected at most {expected}")]
     TooMany {
         /// Size of the sample.
@@ -56,7 +56,7 @@ pub enum LillieforsError {
     /// Levels of the test.
     #[error("level {level}: expected a number from {low} to {high}")]
     Level {
-        /// The level asked for.
+        /// The requested level.
         level: f64,
         /// The lowest possible one.
         low: f64,
@@ -83,7 +83,7 @@ pub enum LillieforsError {
         "{0} draws in a row with a capacity below the shift: the joint model does not hold"
     )]
     Redraws(u64),
-    /// The statistic is a distance.
+    /// A statistic that is not positive.
     #[error("statistic {0}: expected a number above 0")]
     Statistic(f64),
 }
@@ -172,7 +172,7 @@ pub(super) fn standardised(
 }
 
 named! {
-    /// Where a p-value comes from.
+    /// Origin of a p-value.
     #[non_exhaustive]
     pub enum NullSource: "null distribution" {
         /// The project's own Monte Carlo table.
@@ -191,13 +191,13 @@ named! {
 }
 
 named! {
-    /// What a test says at a level.
+    /// Verdict of a test at a level.
     pub enum Verdict: "verdict" {
         /// The interval of p lies below the level.
         Rejected = "rejected",
         /// The interval of p lies above the level.
         NotRejected = "not-rejected",
-        /// The interval of p contains the level: more replicates would tell.
+        /// The interval of p contains the level: more replicates are needed.
         Indeterminate = "indeterminate",
     }
 }

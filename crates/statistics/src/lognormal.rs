@@ -20,18 +20,18 @@ pub use within::dispersion_within;
 
 use super::{ExtendedSample, normal};
 
-/// Why the parameters of a lognormal distribution were refused.
+/// Why the parameters of a lognormal distribution were rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LognormalError {
-    /// The dispersion is positive.
+    /// A dispersion that is not positive and finite.
     #[error("dispersion {0}: expected a positive finite number")]
     Dispersion(f64),
-    /// The logarithmic mean is a number.
+    /// A logarithmic mean that is not finite.
     #[error("logarithmic mean {0}: expected a finite number")]
     LogMean(f64),
-    /// The shift is a number, not negative.
-    #[error("shift {0}: expected a finite number, not negative")]
+    /// A shift that is negative or not finite.
+    #[error("shift {0}: expected a finite, non-negative number")]
     Shift(f64),
 }
 
@@ -292,7 +292,7 @@ impl Lognormal {
         let (a, b) = (1.0 - ratio * ratio, -ratio * off);
         let c = -(off * off - 2.0 * log(ratio));
         let root = sqrt((b * b - a * c).max(0.0));
-        // The stable one of the two forms of a root; the other from the
+        // The numerically stable form of one root; the other root from the
         // product.
         let q = if b > 0.0 { -b - root } else { -b + root };
         let places = [q / a, c / q].into_iter().filter(|z| z.is_finite());

@@ -14,20 +14,20 @@ pub use location::{
     sign_equivalence,
 };
 
-/// Why a comparison was refused.
+/// Why a comparison was rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PairedError {
-    /// Pairs need equal lengths.
-    #[error("{a} values against {b}: expected as many on either side")]
+    /// Unequal numbers of values.
+    #[error("{a} values against {b}: expected equal numbers of values")]
     Lengths {
         /// Number on the first side.
         a: usize,
         /// Number on the second side.
         b: usize,
     },
-    /// Responses are not negative; infinity is overturned or censored.
-    #[error("pair {number}: {value}: expected a number, not negative, or inf")]
+    /// A response that is negative or NaN; infinity is overturned or censored.
+    #[error("pair {number}: {value}: expected a non-negative number, or inf")]
     Value {
         /// Place of the pair, from 1.
         number: usize,
@@ -40,7 +40,7 @@ pub enum PairedError {
     /// Too many usable pairs: their number squared would fill the memory.
     #[error("{0} usable pairs: expected at most {most}", most = location::MOST)]
     TooMany(usize),
-    /// A margin is a share.
+    /// A margin that is not positive.
     #[error("margin {0}: expected a positive number, such as 0.05 for 5 %")]
     Margin(f64),
     /// The logarithms of the ratios don't vary.
@@ -48,7 +48,7 @@ pub enum PairedError {
     Degenerate,
 }
 
-/// Pairs sorted by what they allow.
+/// Pairs by kind.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Pairs {

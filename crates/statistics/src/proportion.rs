@@ -6,36 +6,38 @@ use thiserror::Error;
 use crate::clusters::{Clusters, student};
 use crate::{Interval, Range, normal};
 
-/// Why a count gives no probability.
+/// Why a count or a level was rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProportionError {
-    /// A count is at most the number of trials, and that is at least one.
-    #[error("{successes} of {trials}: expected at most all of 1 or more")]
+    /// More successes than trials, or no trial.
+    #[error(
+        "{successes} of {trials}: expected at most all of at least one trial"
+    )]
     Count {
-        /// How often it happened.
+        /// Number of successes.
         successes: usize,
-        /// How often it could.
+        /// Number of trials.
         trials: usize,
     },
-    /// A level is a probability, and neither 0 nor 1.
+    /// A level that is not between 0 and 1.
     #[error("level {0}: expected a number between 0 and 1")]
     Level(f64),
 }
 
-/// What happened k times in n trials of one probability.
+/// Number of successes in trials with one probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proportion {
     successes: usize,
     trials: usize,
-    /// Of trials that are not independent.
+    /// For trials that are not independent.
     design: Option<DesignEffect>,
 }
 
-/// What clusters make of trials.
+/// Effect of clusters on trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct DesignEffect {
-    /// Number of trials that are worth one independent trial.
+    /// Number of trials that count as much as one independent trial.
     effect: f64,
     /// Degrees of freedom; NaN of a single cluster.
     freedom: f64,
@@ -60,8 +62,8 @@ impl Proportion {
     /// cluster are not independent.
     ///
     /// The design effect D is the variance of k/n over clusters, G/(G - 1)
-    /// sum_g (k_g - n_g k/n)^2/n^2, over that of independent trials,
-    /// k/n (1 - k/n)/n; at least 1, and 1 of none or all of the trials.
+    /// sum_g (k_g - n_g k/n)^2/n^2, over that of independent trials, k/n (1 -
+    /// k/n)/n; at least 1, and 1 if none or all of the trials succeed.
     ///
     /// ```
     /// use rocking_statistics::{Clusters, Proportion};
@@ -100,7 +102,7 @@ impl Proportion {
         });
         let variance = count / (count - 1.0) * square;
         let effect = variance / (n * share * (1.0 - share));
-        // Also where nothing varies, and of a single cluster.
+        // Also if nothing varies, and for a single cluster.
         let effect = if effect > 1.0 { effect } else { 1.0 };
         let freedom = clusters.degrees_of_freedom();
         Ok(Self { design: Some(DesignEffect { effect, freedom }), ..found })
@@ -172,7 +174,7 @@ impl Proportion {
         Ok(Interval::rising(low, high))
     }
 
-    /// Exact intervals of several probabilities that hold all of them at
+    /// Exact intervals of several probabilities that contain all of them at
     /// once with probability `level` or more, however they depend on each
     /// other: each of the m intervals has the level 1 - (1 - level)/m
     /// (Bonferroni).

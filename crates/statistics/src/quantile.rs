@@ -6,14 +6,14 @@ use thiserror::Error;
 
 use super::{ExtendedSample, Sample};
 
-/// Why a quantile was refused.
+/// Why a quantile or its type was rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum QuantileError {
-    /// The probability must lie in [0, 1].
+    /// A probability outside [0, 1].
     #[error("probability {0}: expected a number in [0, 1]")]
     Probability(f64),
-    /// There are nine types.
+    /// A type that is not 1 to 9.
     #[error("quantile type {0}: expected a whole number from 1 to 9")]
     Type(u8),
 }

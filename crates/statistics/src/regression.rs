@@ -13,18 +13,18 @@ pub use tobit::{CensoredLine, tobit};
 use super::lognormal::FitError;
 use super::sample::mean;
 
-/// Why pairs make no line.
+/// Why pairs determine no line.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RegressionError {
-    /// A slope and its error need three pairs.
+    /// Fewer than three pairs.
     #[error("{0} pairs: expected at least 3")]
     TooFew(usize),
-    /// A variance between clusters needs three.
+    /// Fewer than three clusters, too few for a variance between them.
     #[error("{0} earthquakes: expected at least 3")]
     TooFewClusters(usize),
-    /// A pair has two values.
-    #[error("{x} values of x and {y} of y: expected as many")]
+    /// Different numbers of x and y.
+    #[error("{x} values of x and {y} of y: expected equal numbers")]
     Lengths {
         /// Number of values of x.
         x: usize,
@@ -129,7 +129,7 @@ pub fn line(x: &[f64], y: &[f64]) -> Result<Line, RegressionError> {
     })
 }
 
-/// Refuses pairs that make no line.
+/// Rejects pairs that determine no line.
 fn checked(x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
     let n = x.len();
     if y.len() != n {

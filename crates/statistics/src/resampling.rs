@@ -1,10 +1,10 @@
-//! Inference from resampled records, and of measures that ties spoil.
+//! Inference from resampled records, also for measures that ties would spoil.
 //!
 //! A replicate is a *multiplicity* for each record: how often the replicate
-//! holds that record. A measure is a function of the multiplicities, so that
-//! blocks, stripes and intensity measures that share records stay paired.
-//! [`Bootstrap`] draws with replacement; [`Clusters::without_two`] leaves
-//! out, for tests of distribution, which ties break.
+//! contains that record. A measure is a function of the multiplicities, so
+//! that blocks, stripes and intensity measures that share records stay paired.
+//! [`Bootstrap`] draws with replacement; [`Clusters::without_two`] leaves out,
+//! for tests of distribution, which ties break.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use super::clusters::{Clusters, SamplingUnit};
 use super::{Estimate, Interval, QuantileType, Range};
 use rocking::names::as_text;
 
-/// How often a draw of `places` holds each of `n` records.
+/// How often a draw of `places` contains each of `n` records.
 ///
 /// ```
 /// use rocking_statistics::resampling::multiplicities;
@@ -49,10 +49,10 @@ impl Bootstrap {
     }
 }
 
-/// Clusters of which all pairs are left out.
+/// Most clusters of which all pairs are left out.
 pub const MOST_PAIRED: usize = 32;
 
-/// How the resamples of a sample of clusters were made.
+/// Kind of resamples of a sample of clusters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resampling {
     /// As many clusters as the sample has, drawn with replacement.
@@ -62,17 +62,17 @@ pub enum Resampling {
     Without(usize),
 }
 
-/// Fewest clusters of an interval without a remark.
+/// Minimum number of clusters of an interval without a remark.
 pub const FEWEST_CLUSTERS: usize = 8;
 
-/// Fewest draws of an interval without a remark: they know a standard error
-/// to 5 %.
+/// Minimum number of draws of an interval without a remark: they give a
+/// standard error to 5 %.
 pub const FEWEST_DRAWS: usize = 200;
 
-/// Fewest clusters of an interval.
+/// Minimum number of clusters of an interval.
 const LEAST: usize = 3;
 
-/// What makes intervals rough: few clusters, or few draws of them.
+/// Why intervals are rough: few clusters, or few draws of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntervalRemark {
     clusters: Option<(usize, SamplingUnit)>,
@@ -137,14 +137,14 @@ impl Clusters {
     }
 
     /// Bias and standard error over samples of a statistic on the scale of its
-    /// range, from its values in resamples. The bias is that of the mean of a
-    /// bootstrap of a quantity with two bounds, which push its estimators to
-    /// one side; else 0: that of a median is noise. The standard error is the
-    /// standard deviation of the values, of a bootstrap times sqrt(G_e/(G_e -
-    /// 1)) with G_e of [`Self::effective`], of subsets of G without d clusters
-    /// times sqrt((G - d)/d) (Shao and Wu, Ann. Stat. 17 (1989) 1176). None if
-    /// a tenth of the resamples or more have no value, or if no resample moves
-    /// the statistic.
+    /// range, from its values in resamples. For a bootstrap of a quantity with
+    /// two bounds, which push its estimators to one side, the bias is the bias
+    /// of the mean; else it is 0, since the bias of a median is noise. The
+    /// standard error is the standard deviation of the values, of a bootstrap
+    /// times sqrt(G_e/(G_e - 1)) with G_e of [`Self::effective`], of subsets
+    /// of G without d clusters times sqrt((G - d)/d) (Shao and Wu, Ann. Stat.
+    /// 17 (1989) 1176). None if a tenth of the resamples or more have no
+    /// value, or if no resample moves the statistic.
     fn scatter(
         &self,
         point: f64,
@@ -183,8 +183,8 @@ impl Clusters {
         (enough && error > 0.0).then_some((bias, error))
     }
 
-    /// What makes the intervals of resamples of these clusters rough; none
-    /// of [`FEWEST_CLUSTERS`] clusters and [`FEWEST_DRAWS`] draws or more.
+    /// Why the intervals of resamples of these clusters are rough; `None` for
+    /// at least [`FEWEST_CLUSTERS`] clusters and [`FEWEST_DRAWS`] draws.
     ///
     /// ```
     /// use rocking_statistics::Clusters;
@@ -208,9 +208,9 @@ impl Clusters {
     /// scale g of its range ([`Range::scale`]), g(point) - b -+ t s, with the
     /// standard error s that the resamples show, their bias b of a share or a
     /// difference of shares, and Student's t of [`Self::degrees_of_freedom`].
-    /// The interval holds the value and lies in the range. None of fewer than
-    /// three clusters, of a value that g has none for, or if the resamples
-    /// give no standard error.
+    /// The interval holds the value and lies in the range. `None` for fewer
+    /// than three clusters, for a value without a g, and if the resamples give
+    /// no standard error.
     ///
     /// Of lognormal capacities of 3 to 22 earthquakes the 95 % interval by a
     /// bootstrap holds the median, and a frequency above a shift, in 94 to
@@ -259,7 +259,7 @@ impl Clusters {
         }
         let ends = Interval::try_new(y - half, y + half).ok()?;
         let interval = ends.map(|y| range.unscale(y));
-        // Rounding of the way there and back.
+        // Rounding of the transformation and its inverse.
         let (low, high) = interval.ends();
         let interval =
             Interval::try_new(low.min(point), high.max(point)).ok()?;
@@ -288,7 +288,7 @@ impl Clusters {
 pub struct RecordRanks(Vec<(f64, usize)>);
 
 impl RecordRanks {
-    /// The values by record; NaN is none.
+    /// The values by record; NaN is a missing value.
     #[must_use]
     pub fn new(values: &[f64]) -> Self {
         let mut sorted: Vec<(f64, usize)> = values

@@ -1,4 +1,4 @@
-//! Samples: checked once, then relied upon.
+//! Samples, checked once.
 
 use thiserror::Error;
 

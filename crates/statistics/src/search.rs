@@ -1,7 +1,7 @@
 //! Searches for a maximum, and for the place where a condition changes.
 
-/// Two places between which a condition changes that holds at `yes` and not
-/// at `no`: halves the interval as often as `goes_on` holds of its ends.
+/// Two places between which a condition changes that holds at `yes` and not at
+/// `no`: halves the interval as long as `goes_on` holds for its ends.
 pub fn narrow(
     mut yes: f64,
     mut no: f64,

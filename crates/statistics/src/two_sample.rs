@@ -1,4 +1,4 @@
-//! Do two samples come from one distribution?
+//! Comparison of the distributions of two samples.
 
 use super::ExtendedSample;
 use rocking::stop;

@@ -1,4 +1,4 @@
-//! What intensities of damage say of an object: fits, intervals and risk.
+//! Answers from intensities of damage: fits, intervals and risk.
 
 use super::ground::{AssessmentSuite, LAST, ObjectResult, range};
 use super::{Answer, Damage, RecordedMotions};
@@ -12,7 +12,7 @@ use crate::{
 use rocking_statistics::lognormal::FitError;
 use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
 
-/// The small probability of damage whose intensity is stated.
+/// Small probability of damage whose intensity is reported.
 const SMALL: f64 = 0.05;
 
 /// Intensities at which a fragility is drawn.
@@ -67,7 +67,7 @@ impl AssessmentSuite<'_> {
         Ok(own.map_err(FitError::from)?)
     }
 
-    /// What objects are sorted by, of each draw.
+    /// The sorting key of objects in each draw.
     pub(super) fn keys(&self, own: &FragilityInput, of: &Answer) -> Vec<f64> {
         if self.options.hazard.is_none() {
             let fits = own.sampled.iter().flat_map(|all| &all.fitted);
@@ -114,7 +114,7 @@ impl AssessmentSuite<'_> {
         }
     }
 
-    /// What objects are sorted by: the annual frequency, falling, or the
+    /// The sorting key of objects: the annual frequency, falling, or the
     /// intensity of 5 % damage.
     pub(super) fn key(&self, law: &TotalFragility) -> f64 {
         match self.options.hazard {
@@ -123,7 +123,7 @@ impl AssessmentSuite<'_> {
         }
     }
 
-    /// What recorded motions change for the objects on the ground.
+    /// Effect of recorded motions on the objects on the ground.
     pub(super) fn recorded(
         &self,
         found: &[ObjectResult],

@@ -1,4 +1,4 @@
-//! The records of an assessment, and what they make of each object.
+//! The records of an assessment, and the results of each object under them.
 
 use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
@@ -36,7 +36,8 @@ const POINTS: usize = 40;
 /// Probability of damage up to which curves go.
 pub(super) const LAST: f64 = 0.98;
 
-/// Levels above the first overturning end at so many times it.
+/// Resurrections are sought up to this multiple of the first-overturning
+/// intensity.
 const REACH: f64 = 2.0;
 
 /// Spacing of the levels in g.
@@ -85,7 +86,7 @@ pub(super) struct AssessmentSuite<'a> {
     pub(super) options: AssessOptions<'a>,
 }
 
-/// One object, and what is needed to set it beside the others.
+/// Results of one object, with the numbers that compare it with the others.
 pub(super) struct ObjectResult {
     pub(super) assessed: ObjectAssessment,
     /// Its intensities of damage by record: (value, value), or (limit,
@@ -98,7 +99,7 @@ pub(super) struct ObjectResult {
 }
 
 impl Object {
-    /// The floor that it stands on; none on the ground.
+    /// The floor under it; `None` on the ground.
     fn ground(&self) -> Option<Floor> {
         self.floor.as_ref().map(|on| on.floor)
     }
@@ -193,7 +194,7 @@ impl<'a> AssessmentSuite<'a> {
         }
     }
 
-    /// The motions of what an object stands on.
+    /// The motions of the ground or floor under an object.
     fn under(&self, object: &Object) -> &ObjectMotion {
         let mut moved = self.moved.iter();
         let own = moved.find(|moved| moved.floor == object.ground());
@@ -221,8 +222,8 @@ impl<'a> AssessmentSuite<'a> {
         Ok(made)
     }
 
-    /// The measure of the ground of each record where the PGA of what the
-    /// object stands on is 1 g.
+    /// The measure of each ground motion, scaled so that the PGA under the
+    /// object is 1 g.
     fn per_pga(
         &self,
         moved: &ObjectMotion,
@@ -236,7 +237,7 @@ impl<'a> AssessmentSuite<'a> {
         self.measures.iter().zip(&moved.pga_g).map(of).collect()
     }
 
-    /// What the records make of one object.
+    /// Results of one object under the records.
     pub(super) fn object(
         &self,
         object: &Object,
@@ -454,9 +455,8 @@ impl<'a> AssessmentSuite<'a> {
         counts.then_some(Resurrections::Multiple(REACH))
     }
 
-    /// Share of records that ask for more friction than `friction` before
-    /// they damage the object; `onset` are the intensities of damage of the
-    /// curves.
+    /// Share of records that need more friction than `friction` before they
+    /// damage the object; `onset` are the intensities of damage of the curves.
     fn slides(
         &self,
         object: &Object,
@@ -479,7 +479,7 @@ impl<'a> AssessmentSuite<'a> {
         Ok(count as f64 / curves.len() as f64)
     }
 
-    /// So many objects or more damaged by the same record.
+    /// Joint damage of at least one, two, .. objects by the same record.
     pub(super) fn together(
         &self,
         found: &[ObjectResult],
@@ -569,6 +569,6 @@ pub(super) fn correlation(found: &[ObjectResult]) -> Option<Estimate> {
 pub(super) fn range(mut all: Vec<f64>) -> Option<Estimate> {
     all.sort_by(f64::total_cmp);
     let interval = Interval::try_new(*all.first()?, *all.last()?).ok()?;
-    // Rounding may carry a correlation beyond 1.
+    // Rounding may put a correlation beyond 1.
     Estimate::try_new(all[all.len() / 2], interval, Range::Real).ok()
 }

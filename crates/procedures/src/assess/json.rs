@@ -1,5 +1,5 @@
-//! An assessment as it is serialised: what a fragility says, in place of the
-//! fit, the samples and the curves.
+//! Serialisation of an assessment: the answers, without the fits, samples and
+//! curves behind them.
 
 use rocking_statistics::Estimate;
 use rocking_statistics::estimate::keys;

@@ -1,5 +1,4 @@
-//! What few records leave open: intervals of a fit, and bands over
-//! intensity.
+//! Sampling intervals of a fit, and bands over intensity.
 
 use std::fmt;
 
@@ -19,23 +18,23 @@ use rocking_statistics::{
     Range, Sample, normal,
 };
 
-/// What the intervals of a result rest on: the draws of a bootstrap.
+/// Basis of the intervals of a result: the draws of a bootstrap.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct IntervalBasis {
     /// The draws.
     #[serde(flatten)]
     pub draws: Draws,
-    /// What was drawn: earthquakes with all their records, or records if no
-    /// earthquake is known.
+    /// The unit that was drawn: earthquakes with all their records, or records
+    /// if no earthquake is known.
     pub drawn: Clusters,
     /// Level of the intervals.
     pub level: f64,
-    /// What makes them rough; none of 8 earthquakes (records) and 200 draws
-    /// or more.
+    /// Why the intervals are rough; `None` for at least 8 earthquakes
+    /// (records) and 200 draws.
     pub remark: Option<IntervalRemark>,
-    /// The error of the model, of which each draw has a bias and a dispersion
-    /// of its own; none if the draws are of the records alone.
+    /// The model error, from which each draw has its own bias and dispersion;
+    /// `None` if only the records are drawn.
     #[serde(skip)]
     pub model_error: Option<ModelError>,
 }
@@ -58,7 +57,7 @@ impl IntervalBasis {
         self.drawn.estimate(value, drawn, how, range, self.level)
     }
 
-    /// A number with its interval, or without one where there is none.
+    /// A number, with its interval if the draws give one.
     pub(crate) fn value(
         &self,
         value: f64,
@@ -85,8 +84,8 @@ impl fmt::Display for IntervalBasis {
     }
 }
 
-/// Bootstrap intervals of the numbers of a fit; none of a number that a
-/// tenth of the draws do not have.
+/// Bootstrap intervals of the numbers of a fit; `None` for a number that is
+/// missing in a tenth of the draws.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FitIntervals {
@@ -97,7 +96,7 @@ pub struct FitIntervals {
     pub log_mean: Option<BootstrapEstimate>,
     /// Dispersion above the shift.
     pub dispersion: Option<BootstrapEstimate>,
-    /// Median; its standard error is that of the logarithmic mean.
+    /// Median, with the standard error of the logarithmic mean.
     pub median: Option<BootstrapEstimate>,
     /// Eq. 5.
     pub eq5: Option<BootstrapEstimate>,
@@ -121,7 +120,7 @@ fn numbers(found: &SampleFit) -> Numbers {
     [fitted.log_mean(), fitted.dispersion(), eq5, eq6, eq7]
 }
 
-/// The fit of a draw, `places` of a sample.
+/// The fit of one draw: of the values of a sample at these places.
 pub(super) fn refitted(
     sample: &CensoredSample,
     options: &FitOptions,
@@ -165,14 +164,14 @@ impl FitIntervals {
     }
 }
 
-/// Probabilities of a fragility with bands of one intensity at a time.
+/// Probabilities of a fragility with pointwise intervals.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Band {
     /// What it rests on.
     #[serde(flatten)]
     pub basis: IntervalBasis,
-    /// One point an intensity.
+    /// One point per intensity.
     pub points: Vec<BandPoint>,
 }
 
@@ -185,7 +184,7 @@ pub struct BandPoint {
     /// Probability of the fit, with its interval by the bootstrap.
     #[serde(flatten, serialize_with = "keys::probability")]
     pub probability: Estimate,
-    /// The same probability with its interval by the delta method: of
+    /// The same probability with its interval by the delta method, for
     /// complete samples of independent records, fitted by maximum likelihood
     /// or moments above a known shift.
     #[serde(flatten, serialize_with = "keys::delta_ends")]
@@ -217,9 +216,9 @@ impl Band {
 
 impl BootstrapFits {
     /// Probabilities of a fit at these intensities, with the 95 % band of
-    /// these draws, symmetric in the normal score, or with an error of the
-    /// model between quantiles of the draws; the ends by the delta method are
-    /// none.
+    /// these draws, symmetric in the normal score, or between quantiles of the
+    /// draws if they have a model error; without intervals by the delta
+    /// method.
     #[must_use]
     pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
@@ -239,9 +238,9 @@ impl BootstrapFits {
         Band { basis: self.basis.clone(), points }
     }
 
-    /// A probability between two quantiles of the draws, farther out as
-    /// Student's t is wider than the normal distribution (Hesterberg, The
-    /// American Statistician 69 (2015) 371). Near the onset of rocking the
+    /// A probability between two quantiles of the draws, further out by as
+    /// much as Student's t is wider than the normal distribution (Hesterberg,
+    /// The American Statistician 69 (2015) 371). Near the onset of rocking the
     /// scores of draws with and without a dispersion of the model lie so far
     /// apart that they have no useful standard error.
     fn between_draws(&self, value: f64, intensity: f64) -> Option<Estimate> {

@@ -1,4 +1,4 @@
-//! Fits at the levels of an IDA, which may have one dispersion.
+//! Fits at the levels of an IDA, with individual dispersions or a common one.
 
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::names::named;
@@ -9,12 +9,12 @@ use super::{FitOptions, FragilityFit, ProcedureError, fit_sample};
 use crate::capacities;
 
 named! {
-    /// Which dispersion the fragilities of one block have.
+    /// Dispersion of the fragilities of one block.
     pub enum DispersionRule: "dispersion" {
-        /// Each its own.
+        /// Each level has its own dispersion.
         Own = "own",
-        /// One for all, by maximum likelihood: above one shift their curves
-        /// do not cross.
+        /// One dispersion for all levels, by maximum likelihood: above one
+        /// shift their curves do not cross.
         Common = "common",
     }
 }
@@ -30,7 +30,8 @@ impl DispersionRule {
     }
 }
 
-/// The fit of a sample above a shift, by itself or with its family.
+/// The fit of a sample above a shift, individually or together with its
+/// family.
 pub(super) fn law(
     sample: &CensoredSample,
     family: &[CensoredSample],
@@ -43,7 +44,7 @@ pub(super) fn law(
     }
 }
 
-/// The values of samples at these places.
+/// The values of each sample at these places.
 pub(super) fn resampled(
     family: &[CensoredSample],
     places: &[usize],
@@ -57,23 +58,23 @@ pub(super) fn resampled(
 pub struct LevelFit {
     /// The EDP level (peak |theta|/alpha, infinite for overturning).
     pub edp: f64,
-    /// How far the log-likelihood lies below that of the level's own
-    /// dispersion; none of an own dispersion.
+    /// Loss of log-likelihood against an individual dispersion; `None` for
+    /// individual dispersions.
     pub dispersion_loss: Option<f64>,
     /// The fit.
     #[serde(flatten)]
     pub fit: FragilityFit,
 }
 
-/// Fits a fragility at each EDP level of an IDA, each with a dispersion of its
-/// own or all with one.
+/// Fits a fragility at each EDP level of an IDA, each with its own dispersion
+/// or all with a common one.
 ///
 /// A record that does not reach a level is censored at the intensity up to
-/// which it was run. A bootstrap draws a record in all levels at once.
+/// which it was run. A bootstrap draws a record at all levels at once.
 ///
 /// # Errors
-/// [`ProcedureError`] as of [`fit_sample`], for a level that is no positive
-/// number, or one dispersion by another method than maximum likelihood above a
+/// [`ProcedureError`] as for [`fit_sample`], for a level that is not positive,
+/// or a common dispersion with another method than maximum likelihood above a
 /// known shift.
 pub fn fit_levels(
     curves: &[ResponseCurve],

@@ -1,18 +1,18 @@
-//! How many records a precision needs.
+//! Number of records needed for a precision.
 
 use libm::log;
 
 use rocking_statistics::{CensoredSample, Clusters, Lognormal, normal};
 
-/// The relative precision that is asked for.
+/// Target relative precision.
 const PRECISION: f64 = 0.1;
 
-/// The level at which it is to hold.
+/// Level of the interval.
 const LEVEL: f64 = 0.9;
 
-/// How many records bring the median above the shift, and the dispersion, to
-/// a precision, if the fitted dispersion and the shares of records by
-/// earthquake stay as they are.
+/// Number of records that bring the median above the shift, and the
+/// dispersion, to a precision, for the fitted dispersion and the same
+/// distribution of records over earthquakes.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SampleSize {
@@ -27,13 +27,13 @@ pub struct SampleSize {
     /// Share of the variance of the logarithms that lies between earthquakes;
     /// none if no earthquake has two records.
     pub intraclass_correlation: Option<f64>,
-    /// Number of records that are worth one independent record.
+    /// Number of records that count as much as one independent record.
     pub design_effect: f64,
 }
 
 impl SampleSize {
-    /// Of the fit of a sample of these clusters; none if censored values of
-    /// shared earthquakes leave the design effect open.
+    /// The numbers for the fit of a sample with these clusters; `None` if
+    /// censored values of shared earthquakes leave the design effect open.
     ///
     /// With z = 1.645, the dispersion beta and the design effect D, the
     /// median needs (z beta/ln 1.1)^2 D records, the dispersion (z/ln 1.1)^2

@@ -28,8 +28,7 @@ pub enum FitRemark {
 }
 
 impl FitRemark {
-    /// Remarks on the fit to a sample, `left_out` of whose values are left
-    /// out.
+    /// Remarks on the fit to a sample with `left_out` values left out.
     pub(super) fn remarks(
         sample: &CensoredSample,
         left_out: usize,

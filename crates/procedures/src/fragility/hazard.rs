@@ -39,7 +39,7 @@ const SAME_SITE_DEG: f64 = 0.6e-5;
 /// Mean radius of the Earth in km.
 const EARTH_KM: f64 = 6371.0;
 
-/// A hazard curve of a file: its points, and what its intensities are.
+/// A hazard curve from a file: its points and its intensity measure.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Hazard {
@@ -50,14 +50,14 @@ pub struct Hazard {
     /// Number of the curve's units in one unit of the measure (g or m/s):
     /// 100 for a curve in cm/s.
     pub units_per_im_unit: f64,
-    /// What was set aside.
+    /// Points and assumptions to report.
     pub remarks: Vec<HazardRemark>,
 }
 
-/// What the intensities of a hazard curve are.
+/// Intensity measure of a hazard curve.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HazardMeasure {
-    /// The fragility's own, in its unit: the column is `intensity`.
+    /// The same as the fragility's, in its unit: the column is `intensity`.
     Own,
     /// A measure.
     Of(IntensityMeasure),
@@ -90,7 +90,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The dimensionless measure, if it is the axis of an IDA curve.
+    /// The dimensionless measure, if it is an axis of IDA curves.
     #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
@@ -99,7 +99,7 @@ impl HazardMeasure {
         }
     }
 
-    /// The name of the measure; none for the fragility's own.
+    /// The name of the measure; `None` for the fragility's own.
     #[must_use]
     pub fn name(&self) -> Option<String> {
         match self {
@@ -119,18 +119,18 @@ impl serde::Serialize for HazardMeasure {
     }
 }
 
-/// What was set aside from a hazard curve, or assumed.
+/// Part of a hazard curve that was set aside, or an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HazardRemark {
-    /// So many points at the end have a frequency of 0.
+    /// Number of points at the end with a frequency of 0.
     Zeros(usize),
-    /// So many points at the start have a probability of 1, which bounds no
+    /// Number of points at the start with a probability of 1, which gives no
     /// frequency.
     Certain(usize),
     /// The periods of AvgSA are not stated.
     Periods,
-    /// The curve is made of several in SA.
+    /// The curve is computed from several curves in SA.
     Averaged,
 }
 
@@ -145,15 +145,15 @@ impl fmt::Display for HazardRemark {
             Self::Certain(n) => write!(
                 f,
                 "{n} points at the start of the hazard curve have \
-                 probability 1, which tells no frequency, and are set aside"
+                 probability 1, which gives no frequency, and are set aside"
             ),
             Self::Periods => f.write_str(
                 "the hazard curve is in AvgSA and does not state its \
                  periods: they are taken to be those of the fragility",
             ),
             Self::Averaged => f.write_str(
-                "the hazard curve in AvgSA is made of curves in SA, with the \
-                 correlation that is stated",
+                "the hazard curve in AvgSA is computed from curves in SA with \
+                 the given correlation",
             ),
         }
     }
@@ -161,18 +161,18 @@ impl fmt::Display for HazardRemark {
 
 as_text!(write HazardRemark);
 
-/// What a hazard curve's file may leave open.
+/// Data that the file of a hazard curve may lack.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HazardOptions {
-    /// Years of the probabilities of exceedance, where the file does not say
+    /// Years of the probabilities of exceedance, if the file does not give
     /// them.
     pub years: Option<f64>,
     /// The site, if the file has several.
     pub site: Option<Site>,
 }
 
-/// A file that is no hazard curve: file, line, what was found and what was
-/// expected.
+/// Why a file is not a valid hazard curve: file, line, what was found and what
+/// was expected.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{file}{}: {fault}", line.map_or(String::new(), |l| format!(":{l}")))]
 #[non_exhaustive]
@@ -185,11 +185,11 @@ pub struct HazardFileError {
     pub fault: HazardFault,
 }
 
-/// What is wrong with a hazard curve's file.
+/// Fault of the file of a hazard curve.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HazardFault {
-    /// Something else than is read.
+    /// An unexpected entry.
     #[error("found {found}: expected {expected}")]
     Found {
         /// What was found.
@@ -197,7 +197,7 @@ pub enum HazardFault {
         /// What was expected.
         expected: &'static str,
     },
-    /// Points that are no hazard curve.
+    /// Points that are not a valid hazard curve.
     #[error(transparent)]
     Curve(#[from] HazardError),
 }
@@ -481,8 +481,8 @@ fn distance_km(a: (f64, f64), b: (f64, f64)) -> f64 {
     2.0 * EARTH_KM * asin(chord.min(1.0))
 }
 
-/// The curve through points; `years` are there for probabilities, and say
-/// the years where these are known.
+/// The curve through points. `years` is `Some` for probabilities; it contains
+/// the number of years if that is known.
 fn made(
     mut points: Vec<Written>,
     years: Option<Option<f64>>,
@@ -544,7 +544,7 @@ fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(str::trim).collect()
 }
 
-/// The beginning of a text, as much as a message shows.
+/// The beginning of a text, as long as a message shows it.
 fn beginning(text: &str) -> &str {
     text.char_indices().nth(60).map_or(text, |(end, _)| &text[..end])
 }

@@ -18,7 +18,7 @@ pub enum Centre {
     FittedMedian,
 }
 
-/// A way to a fragility, with what it needs to know of the sample.
+/// A recipe for a fragility, with the statistics of the sample that it needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Recipe {
@@ -73,8 +73,8 @@ impl Recipe {
         }
     }
 
-    /// Numbers that must be reported of the unshifted sample, the shift
-    /// apart: none if the whole sample must be known.
+    /// Number of statistics that must be reported of the unshifted sample,
+    /// besides the shift; `None` if the whole sample must be known.
     #[must_use]
     pub fn parameters(&self) -> Option<u8> {
         match self {
@@ -107,7 +107,7 @@ impl Recipe {
             .collect()
     }
 
-    /// The fragility that the recipe makes of a sample above a shift.
+    /// The fragility by this recipe of a sample above a shift.
     ///
     /// ```
     /// use rocking_procedures::fragility::options::Recipe;

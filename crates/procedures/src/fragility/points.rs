@@ -13,24 +13,24 @@ const MOST_INTERVALS: u32 = 1 << 14;
 /// Halvings in the search of the largest error of a chord.
 const HALVINGS: u32 = 60;
 
-/// Why a fragility has no points.
+/// Why a fragility cannot be written as points.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PointsError {
-    /// A tolerance that points can hold.
+    /// A tolerance out of range.
     #[error(
         "tolerance {0} in probability: expected a number from 1e-8 to 0.1"
     )]
     Tolerance(f64),
 }
 
-/// Points (x, F(x)) of a fragility, so many that straight lines between
+/// Points (x, F(x)) of a fragility, dense enough that straight lines between
 /// them differ from F by at most a tolerance in probability.
 ///
 /// `fragility` above shift r, a total above 0, x in its unit; `tolerance` t
 /// from 1e-8 to 0.1. The first point is (r, 0), the last has probability 1,
 /// and both coordinates rise strictly. Between the scores of t/4 and 1 - t/4
-/// the points stand at equal steps of the normal score of F on either side of
+/// the points lie at equal steps of the normal score of F on either side of
 /// the mode, which is a point too: so F is convex or concave between two
 /// points, and the error of a chord is greatest where F has its slope.
 ///
@@ -81,7 +81,7 @@ fn at_equal_scores(
     let shift = fragility.closed().map_or(0.0, |law| law.shift());
     let mut found = vec![(shift, 0.0)];
     let mut add = |(x, p): (f64, f64)| {
-        // Two scores may lie closer than doubles tell.
+        // Two scores may be closer than the resolution of doubles.
         if found.last().is_none_or(|before| x > before.0 && p > before.1) {
             found.push((x, p));
         }

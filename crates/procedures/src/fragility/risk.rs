@@ -1,5 +1,5 @@
-//! How often a year a fragility's damage is to be expected: a hazard curve
-//! integrated over the fragility.
+//! Annual frequency of damage: the integral of a fragility over a hazard
+//! curve.
 
 use libm::{exp, log};
 use thiserror::Error;
@@ -12,14 +12,14 @@ use rocking_statistics::{Lognormal, normal};
 /// the ratio of any two of them is a finite number.
 pub const RANGE: (f64, f64) = (1e-150, 1e150);
 
-/// Why a hazard curve was refused. Points are numbered from 1.
+/// Why a hazard curve was rejected. Points are numbered from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HazardError {
-    /// A curve needs two points.
+    /// Fewer than two points.
     #[error("{0} points: expected at least two")]
     Points(usize),
-    /// An intensity is positive and above the one before.
+    /// An intensity that is not above the one before, or not positive.
     #[error(
         "intensity {found} of point {number}: expected a finite number above {before}"
     )]
@@ -31,7 +31,7 @@ pub enum HazardError {
         /// The intensity before, or 0.
         before: f64,
     },
-    /// A frequency is positive and not above the one before.
+    /// A frequency that is above the one before, or not positive.
     #[error(
         "annual frequency {found} of point {number}: expected a positive number of at most {before}"
     )]
@@ -89,8 +89,8 @@ pub struct AnnualFrequency {
     /// 1/year, of that, what the points cover: the integral from the first
     /// to the last.
     pub covered: f64,
-    /// F at the first intensity: where it is not 0, weaker motions add to
-    /// the frequency, and the curve does not tell how much.
+    /// F at the first intensity: if it is not 0, weaker motions add to the
+    /// frequency by an amount that the curve does not give.
     pub first_probability: f64,
 }
 

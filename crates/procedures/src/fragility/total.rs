@@ -1,4 +1,4 @@
-//! A fragility that holds the error of the model beside the scatter of the
+//! A fragility that includes the model error beside the scatter of the
 //! records.
 
 use libm::{exp, hypot, log};

@@ -1,4 +1,4 @@
-//! From records to numbers: capacities, fates at the level, measures.
+//! Capacities, outcomes at the level and measures of the records of tests.
 
 use rayon::prelude::*;
 
@@ -125,7 +125,8 @@ impl<'a> TestRecords<'a> {
         };
         let ends = ENDS.map(log);
         let mut one = at(log(START))?;
-        // The median falls nearly as alpha rises; beyond 1 where it may be.
+        // The median falls almost in proportion as alpha rises; step slightly
+        // beyond 1.
         let mut other = loop {
             let step = 1.2 * one.1 + NEAR.copysign(one.1);
             let next = (one.0 + step).clamp(ends[0], ends[1]);

@@ -1,4 +1,4 @@
-//! Why tests were not compared.
+//! Reasons for which tests cannot be compared.
 
 use thiserror::Error;
 
@@ -9,7 +9,7 @@ use rocking::ida::IdaError;
 use rocking_records::intensity::IntensityError;
 use rocking_statistics::lognormal::FitError;
 
-/// Why a block was not compared with tests.
+/// Why a block cannot be compared with tests.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ShakingError {
@@ -19,7 +19,7 @@ pub enum ShakingError {
         /// Tests whose fate is unknown.
         unknown: usize,
     },
-    /// Motions are the unit of the intervals.
+    /// Too few motions, the unit of the intervals.
     #[error("{found} motions of {tests} tests: expected at least 3")]
     Motions {
         /// Number of motions with a known fate.
@@ -27,7 +27,7 @@ pub enum ShakingError {
         /// Number of tests with a known fate.
         tests: usize,
     },
-    /// Fates of one kind tell one side of the capacity alone.
+    /// Outcomes of one kind bound the capacity on only one side.
     #[error(
         "{which} {tests} tests overturned the specimen: expected both fates"
     )]
@@ -37,7 +37,7 @@ pub enum ShakingError {
         /// Number of tests with a known fate.
         tests: usize,
     },
-    /// The fates give no scatter of the capacity.
+    /// The outcomes determine no scatter of the capacity.
     #[error("demand over capacity of the tests{}: {source}", less(.without))]
     Fit {
         /// The motion that was left out, if one was.
@@ -46,7 +46,7 @@ pub enum ShakingError {
         #[source]
         source: FitError,
     },
-    /// PGA, capacity and measures are positive.
+    /// A PGA, capacity or measure that is not positive.
     #[error("test {test}: {what} is {found}: expected a positive number")]
     Number {
         /// The test.
@@ -56,7 +56,7 @@ pub enum ShakingError {
         /// Its value; NaN if there is none.
         found: f64,
     },
-    /// No slenderness makes measured capacities the computed ones.
+    /// No slenderness makes computed and measured capacities agree.
     #[error(
         "no slenderness between {} and {} rad makes the median of measured over computed capacity 1",
         ENDS[0],

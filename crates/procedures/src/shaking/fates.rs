@@ -68,8 +68,8 @@ pub(super) fn log_likelihood(
     tests.fold(0.0, |sum, (x, fate)| sum + ln_probability(of, *x, *fate))
 }
 
-/// Probability of overturning of each test by a fit that leaves its motion
-/// out, as ln of the probability of its own fate.
+/// ln of the probability of the outcome of each test, by a fit that leaves its
+/// motion out.
 ///
 /// # Errors
 /// The first motion, in their order, without which there is no fit.

@@ -1,4 +1,4 @@
-//! The comparison of numbers: capacities and measures of tests, and fates.
+//! Comparison of capacities and measures of tests with outcomes.
 
 use super::fates::{Fates, probit};
 use super::onset::{onset, resurrected};
@@ -25,7 +25,7 @@ const CLASSES: usize = 10;
 /// Fewest motions of a comparison.
 const LEAST_MOTIONS: usize = 3;
 
-/// Tests that a block was computed for: a comparison without its records.
+/// Tests with computed capacities: the input of a comparison, without records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComputedTests<'a> {
     /// The tests whose fate is known, with the values of all measures; their
@@ -38,7 +38,7 @@ pub struct ComputedTests<'a> {
     /// Change of ln of the median of measured over computed capacity by that
     /// of ln alpha, if alpha was fitted to make the median 1.
     pub fitted_slope: Option<f64>,
-    /// How they were computed, and are compared.
+    /// Options of the computation and the comparison.
     pub options: &'a TestOptions,
 }
 
@@ -58,8 +58,8 @@ impl ComputedTests<'_> {
         let bootstrap = draws.of("shaking", &fates.motions);
         let falls: Vec<bool> =
             self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
-        // What the draws make of a predictor, and of its fragility of the
-        // computed fates.
+        // Scores of a predictor in the draws, and differences to its fragility
+        // of the computed fates.
         let drawn = |of: &PredictorNumbers, is_compared: bool| {
             let rows = bootstrap.map(|places| {
                 let counts = multiplicities(places, falls.len());
@@ -166,7 +166,7 @@ impl ComputedTests<'_> {
         self.tests.iter().map(|test| test.capacity_factor.recip()).collect()
     }
 
-    /// The fates, if they can be compared.
+    /// The outcomes, if they can be compared.
     fn fates(&self) -> Result<Fates, ShakingError> {
         let tests = self.tests.len();
         if tests == 0 {

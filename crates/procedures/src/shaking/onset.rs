@@ -1,4 +1,4 @@
-//! What the fates say about the onset of rocking and about resurrections.
+//! Outcomes near the onset of rocking, and resurrections.
 
 use super::fates::{Fates, ln_probability, log_likelihood, probit};
 use super::{OnsetComparison, Resurrected, TestResult};
@@ -35,7 +35,7 @@ pub(super) fn onset(tests: &[TestResult], onset_g: f64) -> OnsetComparison {
     }
 }
 
-/// Tests at levels at which the block stands above its first overturning.
+/// Tests at levels above the first overturning at which the block stays up.
 pub(super) fn resurrected(
     tests: &[TestResult],
     x: &[f64],

@@ -21,12 +21,13 @@ pub(super) struct PredictorNumbers {
     pub fit: Lognormal,
 }
 
-/// What a draw makes of a predictor: right, median, dispersion, AUC, score.
+/// Scores of a predictor in a draw: share right, median, dispersion, AUC, log
+/// score.
 pub(super) type Scores = [f64; 5];
 
 impl PredictorNumbers {
-    /// Fits the fates; `threshold` is the number from which a test is taken to
-    /// overturn the specimen, none if the probability decides.
+    /// Fits the fates; `threshold` is the least number at which overturning is
+    /// predicted; `None` if the probability decides.
     ///
     /// # Errors
     /// The motion that was left out, if one was, and why there is no fit.

@@ -1,4 +1,4 @@
-//! How well tests repeat themselves.
+//! Repeatability of tests.
 
 use super::Repeatability;
 use super::fates::Fates;

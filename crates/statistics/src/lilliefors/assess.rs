@@ -1,4 +1,4 @@
-//! A sample's test with everything that can stand in its way.
+//! Lilliefors' test of a sample, with the reasons for which it may not apply.
 
 use thiserror::Error;
 
@@ -12,7 +12,7 @@ use crate::{Estimate, ExtendedSample, Sample, SampleError};
 /// Share of distinct values below which ties decide the test.
 const DISTINCT: f64 = 0.8;
 
-/// What is tested for normality.
+/// Scale on which normality is tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
     /// The values themselves.
@@ -24,11 +24,11 @@ pub enum Scale {
     },
 }
 
-/// Why a test gives no verdict.
+/// Why a test has no verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Inapplicable {
-    /// Censored values have no place in the test.
+    /// Censored values, which the test cannot take.
     #[error("{censored} of {n} values are infinite")]
     Censored {
         /// Number of infinite values.
@@ -60,7 +60,7 @@ pub enum Inapplicable {
     Test(#[from] LillieforsError),
 }
 
-/// Where p-values come from.
+/// Null distribution of a test.
 #[derive(Clone, Copy, Debug)]
 pub enum Null<'a> {
     /// The committed table.
@@ -81,7 +81,7 @@ pub struct LillieforsTest {
     pub statistic: Option<Statistic>,
     /// Its p-value, with the 95 % interval of its Monte Carlo error.
     pub p_value: Option<Estimate>,
-    /// Where the p-value comes from.
+    /// Origin of the p-value.
     pub source: Option<NullSource>,
     /// The critical value at the level.
     pub critical_value: Option<f64>,

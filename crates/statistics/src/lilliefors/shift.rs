@@ -1,6 +1,6 @@
-//! Null distributions where the shift was estimated from the same records.
+//! Null distributions for a shift that was estimated from the same records.
 //!
-//! Lilliefors' table holds for a shift known beforehand. An estimated one
+//! Lilliefors' table is valid for a shift known beforehand. An estimated one
 //! moves D with the sample, so the null is simulated with the estimate
 //! repeated.
 
@@ -11,11 +11,11 @@ use crate::sample::{mean, sum_of_squares};
 use crate::streams::{Stream, Streams, standard_normal};
 use crate::{QuantileType, Sample};
 
-/// Draws in a row that may fall below their shift: a model that draws what
-/// it says has no more than some.
+/// Draws in a row that may fall below their shift: a valid model has only a
+/// few.
 const REDRAWS: u64 = 100;
 
-/// Replicates that show whether the model holds, before the others are
+/// Replicates that show whether the model is valid, before the others are
 /// drawn.
 const PILOTS: u64 = 128;
 
@@ -95,15 +95,14 @@ impl ShiftedNull {
     /// Null for a shift that is the sample's own smallest value, which is
     /// then left out (its logarithm is minus infinity): D of the others.
     ///
-    /// Samples are drawn from a lognormal of the dispersion
-    /// beta = ln((q84 - q50)/(q50 - q16))/0.99446 of `values`, with their
-    /// 16, 50 and 84 % quantiles: a common shift leaves it as it is, as their
-    /// median leaves D. The dispersion above the smallest value would not do:
-    /// it is half as large again, and the test would reject up to six times
-    /// as often as its level says. With 45 and 87 values and beta = 0.1 to 1,
-    /// a level of 5 % rejects 3 to 6.5 %. Where the quantiles are as far
-    /// apart below the median as above it, the limit of small dispersions is
-    /// taken.
+    /// Samples are drawn from a lognormal of the dispersion beta = ln((q84 -
+    /// q50)/(q50 - q16))/0.99446 of `values`, with their 16, 50 and 84 %
+    /// quantiles: a common shift leaves it as it is, as their median leaves D.
+    /// The dispersion above the smallest value would not do: it is half as
+    /// large again, and the test would reject up to six times as often as its
+    /// level says. With 45 and 87 values and beta = 0.1 to 1, a level of 5 %
+    /// rejects 3 to 6.5 %. If the quantiles are as far apart below the median
+    /// as above it, the limit of small dispersions is taken.
     ///
     /// # Errors
     /// [`LillieforsError`] for values that are not finite or do not vary, and

@@ -108,7 +108,8 @@ impl NullDistribution {
         Ok((Self::from_statistics(n, all), counted))
     }
 
-    /// Refuses sizes and numbers of replicates that tell nothing.
+    /// Rejects sizes and numbers of replicates that are too small or too
+    /// large.
     pub(crate) fn check(
         n: usize,
         replicates: u64,

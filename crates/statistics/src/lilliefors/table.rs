@@ -15,12 +15,12 @@ static TABLE: LazyLock<LillieforsTable> =
 /// n that follow from them.
 ///
 /// Every n from 4 to 100 is simulated, and selected ones to 1000. Between
-/// sizes sqrt(n) D is linear in 1/sqrt(n); between levels the normal score
-/// of the level is a monotone cubic in D. Both interpolations together err
-/// less than 0.6 % of p(1 - p) (1.2 % for n = 4, whose density has kinks),
-/// which the interval of a p-value contains; judged by leaving levels and sizes
-/// out, which errs four times as much. Above n = 1000 the line through n = 100
-/// and 1000 goes on: it errs less than 0.003 in p, up to n = 100,000.
+/// sizes sqrt(n) D is linear in 1/sqrt(n); between levels the normal score of
+/// the level is a monotone cubic in D. Both interpolations together err less
+/// than 0.6 % of p(1 - p) (1.2 % for n = 4, whose density has kinks), which
+/// the interval of a p-value contains; this is checked by leaving levels and
+/// sizes out, which errs four times as much. Above n = 1000 the line through n
+/// = 100 and 1000 goes on: it errs less than 0.003 in p, up to n = 100,000.
 #[derive(Clone, Debug)]
 pub struct LillieforsTable {
     columns: Vec<LevelColumn>,

@@ -1,4 +1,4 @@
-//! What the number of values leaves open of a fitted probability.
+//! Sampling interval of a fitted probability.
 
 use super::Lognormal;
 use crate::{Estimate, Interval, normal};
@@ -10,8 +10,9 @@ impl Lognormal {
     /// Intensity x in the unit of the sample; `level` between 0 and 1, 0.95
     /// for an interval of 95 %. The score z = (ln(x - r) - mu)/beta has the
     /// variance (1 + z^2/2)/n for many values: mu has beta^2/n, beta has
-    /// beta^2/(2 n), and both are independent. The ends are Phi of z less
-    /// and plus so many standard deviations. Up to the shift both are 0.
+    /// beta^2/(2 n), and both are independent. The ends are Phi of z minus and
+    /// plus the normal quantile times the standard deviation. Up to the shift
+    /// both are 0.
     ///
     /// ```
     /// use rocking_statistics::Lognormal;

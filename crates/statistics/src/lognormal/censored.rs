@@ -8,7 +8,7 @@ use crate::search::narrow;
 
 const STEPS: usize = 100;
 
-/// What is known of a value.
+/// An observation of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Observation {
     /// The value.
@@ -174,7 +174,8 @@ pub(crate) fn climb<T>(
             if next[0] > 0.0 {
                 let found = at(&next);
                 let (old, new) = (value(&here), value(&found));
-                // At the maximum the value no longer tells steps apart.
+                // At the maximum the value is the same after each step, to
+                // rounding.
                 if new >= old - 1e-13 * old.abs() {
                     (place, here) = (next, found);
                     break;
@@ -205,7 +206,7 @@ fn step(all: &[Point], group: usize) -> (f64, f64) {
 
 /// Half of the 95 % quantile of chi-squared with one degree of freedom.
 pub(super) const DROP: f64 = 1.920_729_410_347_062;
-/// Limits farther off than this, in logarithms, are none.
+/// A log limit beyond this counts as infinite.
 const FARTHEST: f64 = 30.0;
 
 /// Limits of the 95 % likelihood interval of the mean and of the standard

@@ -22,8 +22,8 @@ pub struct Stripe {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CountsFit {
-    /// The fit; its log-likelihood is that of the binomial distributions,
-    /// their coefficients included, and its size the number of records run.
+    /// The fit; its log-likelihood is of the binomial distributions, with
+    /// their coefficients, and its size is the number of records run.
     pub fit: LognormalFit,
     /// The median with its 95 % likelihood interval; an end is open if the
     /// likelihood does not fall so far.
@@ -43,7 +43,7 @@ pub struct CountsFit {
 /// Spectra 31 (2015) 579, Eq. 11), which is probit regression on
 /// ln(im - shift).
 ///
-/// The intervals hold the medians, and the dispersions, whose profile
+/// The intervals contain the medians, and the dispersions, whose profile
 /// log-likelihood is within 1.92 of the maximum. They take the counts of
 /// stripes as independent; stripes of the same records are not.
 ///
@@ -101,7 +101,7 @@ pub fn fit_counts(
     })
 }
 
-/// The distribution of [`fit_counts`] alone, without intervals.
+/// Only the distribution of [`fit_counts`], without intervals.
 ///
 /// # Errors
 /// As of [`fit_counts`].
@@ -173,8 +173,8 @@ fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
 }
 
 /// Whether the likelihood rises with 1/dispersion from 0, at which all stripes
-/// have one probability: since it is concave, it otherwise has no maximum at a
-/// positive value.
+/// have one probability: since it is concave, it has no maximum at a positive
+/// value if it does not rise there.
 fn rises(stripes: &[Stripe], places: &[f64]) -> bool {
     let sum = |of: &dyn Fn(&Stripe) -> f64| {
         stripes.iter().fold(0.0, |sum, stripe| sum + of(stripe))

@@ -77,7 +77,7 @@ impl fmt::Display for FitMethod {
     }
 }
 
-/// Reads what `Display` writes; a name alone has the default type of
+/// Reads the text of `Display`; a name without a type has the default type of
 /// quantiles.
 impl FromStr for FitMethod {
     type Err = UnknownName;
@@ -95,14 +95,14 @@ impl FromStr for FitMethod {
 
 as_text!(FitMethod);
 
-/// Why a fit was refused.
+/// Why a sample has no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// Two distinct values are the least.
+    /// Fewer than two values.
     #[error("{0} values kept: expected at least 2")]
     TooFew(usize),
-    /// The logarithm needs values above the shift.
+    /// A value that is not above the shift.
     #[error(
         "value {value} with shift {shift}: expected a value above the shift"
     )]
@@ -112,7 +112,7 @@ pub enum FitError {
         /// The shift.
         shift: f64,
     },
-    /// The method needs every value.
+    /// Infinite values with a method that needs finite ones.
     #[error(
         "{censored} of {n} values are infinite: this fit needs finite values (the censored one does not)"
     )]
@@ -140,7 +140,7 @@ pub enum FitError {
     /// All values are equal, to rounding.
     #[error("the logarithms do not vary: expected distinct values")]
     Degenerate,
-    /// One number may be every value.
+    /// A single number is compatible with every value.
     #[error(
         "all {n} values, censored ones included, may be {value}: expected values that determine a dispersion"
     )]
@@ -150,7 +150,7 @@ pub enum FitError {
         /// Number of values.
         n: usize,
     },
-    /// An interval holds its value.
+    /// An interval that is empty, or not above the shift.
     #[error(
         "interval {number}, from {low} to {high}: expected low <= high, above the shift"
     )]
@@ -164,7 +164,7 @@ pub enum FitError {
     },
     /// A stripe counts records above no intensity, or more than it has.
     #[error(
-        "stripe {number}, {exceeded} of {n} at {im}: expected at most all of at least one, at a finite intensity above the shift"
+        "stripe {number}, {exceeded} of {n} at {im}: expected at most all of at least one record, at a finite intensity above the shift"
     )]
     Stripe {
         /// Place of the stripe, from 1.
@@ -328,14 +328,13 @@ pub fn fit(
 /// values known by intervals (low, high]: sum of ln[F(high) - F(low)], with
 /// ln f(x) for a value known exactly, whose interval is (x, x).
 ///
-/// What a scan of a grid tells about an overturning intensity, without
-/// taking an end or the middle for it; and capacities of records that were
-/// not run beyond a limit of their own, (limit, infinity). `low` up to the
-/// shift means "below high". An interval from the shift or below it to
-/// infinity says nothing: it is left out, and `n - n_kept` counts those.
-/// The log-likelihood is that of the intervals, in x (R:
-/// `survival::survreg(Surv(low, high, type = "interval2") ~ 1, dist =
-/// "lognormal")`).
+/// Such intervals come from a scan of a grid for an overturning intensity,
+/// without taking an end or the middle for it, and from records that were run
+/// only up to a limit, (limit, infinity). `low` up to the shift means "below
+/// high". An interval from the shift or below it to infinity gives no
+/// information: it is left out, and `n - n_kept` counts those. The
+/// log-likelihood is of the intervals, in x (R: `survival::survreg(Surv(low,
+/// high, type = "interval2") ~ 1, dist = "lognormal")`).
 ///
 /// ```
 /// use rocking_statistics::lognormal::fit_intervals;
@@ -348,7 +347,7 @@ pub fn fit(
 ///
 /// # Errors
 /// [`FitError`] for an interval that is empty or not above the shift, fewer
-/// than two that say something, or if all of those have a point in common.
+/// than two that give information, or if all of those have a point in common.
 pub fn fit_intervals(
     intervals: &[(f64, f64)],
     shift: f64,
@@ -357,8 +356,8 @@ pub fn fit_intervals(
 }
 
 /// Fits lognormal distributions of one dispersion above one shift to samples
-/// by maximum likelihood, each sample with a median of its own; its
-/// log-likelihood is that of its own intervals, as in [`fit_intervals`].
+/// by maximum likelihood, each sample with its own median; its log-likelihood
+/// is of its own intervals, as in [`fit_intervals`].
 ///
 /// ```
 /// use rocking_statistics::lognormal::fit_intervals_together;

@@ -6,7 +6,7 @@ use crate::normal::{LN_SQRT_TWO_PI, ln_cdf};
 use crate::search::{golden, narrow};
 
 /// The dispersion, of the highest likelihood, of lognormal fragilities of
-/// groups of outcomes that differ in their medians alone: (intensity, whether
+/// groups of outcomes that differ only in their medians: (intensity, whether
 /// it was exceeded) of each group.
 ///
 /// With a median for each group it is biased low. None if no group has an
@@ -58,8 +58,8 @@ pub fn dispersion_within(groups: &[Vec<(f64, bool)>]) -> Option<f64> {
     Some(largest * exp(-golden(value, -FARTHEST, FARTHEST)))
 }
 
-/// Dispersions farther than this from the largest deviation, in logarithms,
-/// are none.
+/// Largest distance of the dispersion from the largest deviation, in
+/// logarithms.
 const FARTHEST: f64 = 15.0;
 
 /// The highest log-likelihood of a group at 1/dispersion `a`, by halving the

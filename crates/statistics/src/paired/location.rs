@@ -1,4 +1,4 @@
-//! Where the ratios centre, and whether that is near enough to 1.
+//! Centre of the ratios, and its equivalence to 1.
 
 use libm::{exp, log, log1p};
 use statrs::distribution::{ContinuousCDF as _, StudentsT};

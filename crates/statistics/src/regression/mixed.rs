@@ -63,7 +63,7 @@ impl Group {
         }
     }
 
-    /// The weight of a mean over that of a deviation within.
+    /// Ratio of the weight of a mean to the weight of a deviation within.
     fn weight(&self, ratio: f64) -> f64 {
         1.0 / f64::mul_add(self.size, ratio, 1.0)
     }
@@ -97,11 +97,11 @@ fn solve(groups: &[Group], n: f64, ratio: f64) -> Option<Solution> {
 /// least-squares [`line`](super::line).
 ///
 /// The variances maximise the restricted likelihood (REML); the coefficients
-/// are those of generalised least squares. The p-value is that of Student's t
+/// are those of generalised least squares. The p-value is from Student's t
 /// with the degrees of freedom 2 V^2/var(V) of Satterthwaite, V the variance
-/// of the slope, from the expected information of the two variances (Abrahamson
-/// and Youngs, BSSA 82 (1992) 505; Kenward and Roger, Biometrics 53 (1997)
-/// 983; statsmodels: `MixedLM`; R: `lmerTest`).
+/// of the slope, from the expected information of the two variances
+/// (Abrahamson and Youngs, BSSA 82 (1992) 505; Kenward and Roger, Biometrics
+/// 53 (1997) 983; statsmodels: `MixedLM`; R: `lmerTest`).
 ///
 /// ```
 /// use rocking_statistics::Clusters;

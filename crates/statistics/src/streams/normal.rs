@@ -17,8 +17,8 @@ const START: f64 = 3.654_152_885_361_009;
 /// sqrt(pi/2).
 const ROOT_HALF_PI: f64 = 1.253_314_137_315_500_3;
 
-/// Edges x_0 > x_1 > .. of the layers and exp(-x^2/2) there; x_0 is that of
-/// a rectangle as large as the lowest layer with its tail.
+/// Edges x_0 > x_1 > .. of the layers and exp(-x^2/2) there; x_0 is the edge
+/// of a rectangle as large as the lowest layer with its tail.
 struct Ziggurat {
     edges: [f64; LAYERS + 1],
     heights: [f64; LAYERS + 1],

@@ -22,7 +22,7 @@ pub struct SpectralCorrelation {
     dispersion: f64,
 }
 
-/// Why there is no curve of the average.
+/// Why the curve of the average cannot be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AverageHazardError {

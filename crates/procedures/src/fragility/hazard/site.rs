@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-/// A site of a hazard curve's file.
+/// A site in the file of a hazard curve.
 ///
 /// ```
 /// use rocking_procedures::fragility::hazard::Site;
@@ -21,7 +21,7 @@ pub enum Site {
     Id(String),
 }
 
-/// A text that names no site.
+/// A text that is not a site.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "found `{0}`: expected longitude,latitude in degrees, or the id of a site"

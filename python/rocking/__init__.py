@@ -38,11 +38,11 @@ Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
 `p` the frequency parameter sqrt(3 g/(4 R)) in rad/s. Accelerations are in
 multiples of gravity once they are in a `Record`; what unit an array or a file
 has must be said (`units="g"`, `"m/s2"` or `"cm/s2"`) unless the file states
-it. The response (EDP) is the peak of |theta|/alpha, infinite where the block
-overturns. Input that is refused raises `ValueError`, a missing file
-`FileNotFoundError`. Every result is the same, to the last bit, as that of the
-command line `rocking`, for any number of threads. What is suspicious about a
-record is in its `remarks`, and a `UserWarning`.
+it. The response (EDP) is the peak of |theta|/alpha, infinite if the block
+overturns. Invalid input raises `ValueError`, a missing file
+`FileNotFoundError`. Every result is the same, to the last bit, as the result
+of the command line `rocking`, for any number of threads. Suspicious data of a
+record are reported in its `remarks` and in a `UserWarning`.
 """
 
 from ._analyses import Response, peak, respond, rocking_spectrum

@@ -1,4 +1,4 @@
-"""What blocks do: single responses, and peaks of many."""
+"""Single responses of blocks, and peaks of many."""
 
 from __future__ import annotations
 
@@ -44,21 +44,21 @@ def physics(eta: Eta, model: Model, overturn: Overturn) -> _rocking.Physics:
 
 @dataclass(frozen=True, eq=False)
 class Response(Frozen):
-    """What one block did under one excitation.
+    """The response of one block to one excitation.
 
     Times are in s. `repr` leaves the arrays out.
     """
 
     outcome: Literal["no-uplift", "rocked", "overturned"]
     peak_ratio: float
-    """Peak |theta|/alpha, infinite where it overturned."""
+    """Peak |theta|/alpha, infinite if it overturned."""
     resolved: bool
-    """False where rounding may have changed outcome or peak; `certify=True`
-    then resolves them in wider arithmetic."""
+    """False if rounding may have changed outcome or peak; `certify=True` then
+    resolves them in wider arithmetic."""
     fate_margin: float
     """Distance from the other fate, in units of alpha."""
     error_estimate: float | None
-    """Bound on the error of the peak; None where a decision is not clear."""
+    """Bound on the error of the peak; None if a decision is not clear."""
     peak_time: float | None
     uplift_time: float | None
     rest_time: float | None
@@ -128,7 +128,7 @@ def respond(
     history_dt: float | None = None,
     certify: bool = False,
 ) -> Response:
-    """What a block does under a record or a pulse.
+    """The response of a block to a record or a pulse.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def respond(
         Scale the excitation to PGA/(g tan alpha), to a PGA in g, or by a
         factor.
     history_dt : float
-        Record the rotation every so many seconds.
+        Interval in s at which the rotation is recorded.
     certify : bool
         Tell outcome and peak in the precision that they need.
 
@@ -206,9 +206,9 @@ def peak(
     Returns
     -------
     ndarray of shape (block, excitation, level)
-        Infinite where the block overturned. As with a ufunc, an axis is
-        missing where a single block, excitation or level was given. Peaks
-        that rounding may have changed are not marked: `respond` says so.
+        Infinite if the block overturned. As with a ufunc, an axis is missing
+        if a single block, excitation or level was given. Peaks that rounding
+        may have changed are not marked: `respond` says so.
 
     Notes
     -----

@@ -92,13 +92,13 @@ class Contribution(Result):
 
 @dataclass(frozen=True)
 class Answer(Result):
-    """What a fragility with the error of the model says; intensities are in
-    the unit of the assessment."""
+    """The answer of a fragility with the model error; intensities are in the
+    unit of the assessment."""
 
     median_im: Bounds
     im_at_5_percent: Bounds
     records: Fragility
-    """Fit of the records alone."""
+    """Fit of the records, without the model error."""
     model_bias: float
     model_dispersion: float
     annual_frequency: Bounds | None
@@ -114,7 +114,7 @@ class Alternative(Answer):
 
 @dataclass(frozen=True)
 class DamagedTogether(Answer):
-    """So many objects or more damaged by the same earthquake."""
+    """Joint damage of several objects by the same earthquake."""
 
     at_least: int
 
@@ -147,7 +147,7 @@ class AssessedObject(Answer):
 
 @dataclass(frozen=True)
 class RecordedMotions(Result):
-    """What recorded motions change in answers under embedded ones: the median
+    """Effect of recorded motions on answers under embedded ones: the median
     ratio, the least and the largest."""
 
     blocks: int
@@ -172,9 +172,9 @@ class Assessment(Result):
     drawn: str
     level: float
     remark: str | None
-    """What makes the intervals rough: few records, earthquakes or draws."""
+    """Why the intervals are rough: few records, earthquakes or draws."""
     model_error: ModelError
-    """In every answer but that of the records alone."""
+    """In every answer except the alternative without it."""
     years: float
     correlation: Bounds | None
     objects: tuple[AssessedObject, ...]
@@ -230,8 +230,8 @@ def assess(
     certify : bool
         Decide each fate in the arithmetic that it needs.
     n_resamples, rng : int
-        Draws of the bootstrap, of earthquakes where these are known, and
-        their repetition.
+        Draws of the bootstrap, of earthquakes if these are known, and their
+        repetition.
     model_dispersion, model_bias : float or (value, low, high), optional
         Error of the model, as in `risk`.
     gravity : float

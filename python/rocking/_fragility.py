@@ -70,7 +70,7 @@ class LawFragility(_Fit):
     total: Fragility
     """With the error of the model."""
     origin: str
-    """Where it comes from, in words."""
+    """Its origin, in words."""
 
 
 Fit = FragilityFit | CountsFragility | LawFragility | CloudLevel
@@ -136,8 +136,8 @@ class BlockFragility:
     fit: Fit | Sequence[Fit]
     """One, or one a limit state in the order of rising damage."""
     im: str
-    """What the fit is in: "pga" for PGA/(g tan alpha), "pgv" for
-    p PGV/(g tan alpha), or another name of `Ida.against` in its own unit."""
+    """Intensity measure of the fit: "pga" for PGA/(g tan alpha), "pgv" for p
+    PGV/(g tan alpha), or another name of `Ida.against` in its own unit."""
     id: str | None = None
     """Name in the file, of ASCII letters, digits, `_` and `:`; from alpha and
     p unless given."""
@@ -148,7 +148,7 @@ class BlockFragility:
     model: Model = "nonlinear"
     """The linearized equation has alpha in place of tan alpha."""
     origin: str | None = None
-    """Where the fragilities come from, in words."""
+    """Origin of the fragilities, in words."""
 
     def __post_init__(self) -> None:
         pair_of(self.block)
@@ -213,7 +213,7 @@ def export(
     -------
     str
         The text, with the bytes of `rocking fragility export`; it is written
-        to `path` where that is given, and a second file beside it.
+        to `path` if that is given, and a second file beside it.
 
     >>> from rocking import fit_fragility
     >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
@@ -257,9 +257,9 @@ class HazardPoint(Result):
 class Hazard:
     """A hazard curve, as its file has it.
 
-    `years` are those of probabilities of exceedance, where the file does not
+    `years` are the years of probabilities of exceedance, if the file does not
     say them, and `site` is the longitude and latitude in degrees, or the
-    `custom_site_id`, where it has several.
+    `custom_site_id`, if it has several.
     """
 
     place: str
@@ -286,7 +286,7 @@ class Hazard:
 
     @property
     def im(self) -> str | None:
-        """The intensity measure; None for that of the fragility."""
+        """The intensity measure; None if it is the same as the fragility's."""
         return _rocking.hazard(self._written)[1]
 
     @property
@@ -296,7 +296,7 @@ class Hazard:
 
     @property
     def remarks(self) -> Sequence[str]:
-        """What was set aside of the file."""
+        """Remarks on what was set aside of the file."""
         return _rocking.hazard(self._written)[3]
 
 
@@ -316,7 +316,7 @@ def read_hazard(
     ----------
     path : str or path-like
     years : float, optional
-        Years of the probabilities, where the file does not state them.
+        Years of the probabilities, if the file does not state them.
     site : (longitude, latitude) in degrees or str, optional
         Which site of several: its place, or its `custom_site_id`.
 
@@ -350,11 +350,11 @@ class TotalFragility(Result):
 
 @dataclass(frozen=True)
 class SamplingInterval(IntervalBasis):
-    """What few records and the model leave open of a frequency and a
-    probability; the hazard curve counts as known."""
+    """Uncertainty by the choice of records and the model error of a frequency
+    and a probability; the hazard curve counts as known."""
 
     model_error: ModelError | None
-    """None of the records alone."""
+    """None without a model error."""
     annual_frequency_low: float
     annual_frequency_high: float
     probability_low: float
@@ -380,7 +380,7 @@ class FragilityRisk(Result):
     probability_truncation_lower: float
     probability_truncation_upper: float
     probability_at_first_point: float
-    """Where it is not 0, weaker motions add to the frequency."""
+    """If it is not 0, weaker motions add to the frequency."""
     sampling: SamplingInterval | None
     """None for a fragility without a sample."""
 
@@ -429,8 +429,8 @@ def risk(
     gravity : float
         In m/s2, for the PGV of blocks.
     n_resamples, rng : int
-        Bootstrap samples of a fit's records, of earthquakes where they are
-        known, and their repetition; 0 for no interval.
+        Bootstrap samples of a fit's records, of earthquakes if they are known,
+        and their repetition; 0 for no interval.
     model_dispersion, model_bias : float or (value, low, high), optional
         Error of the model. By default 0.2 (0 to 0.25) and 1 (0.77 to 1.3);
         0 and 1 are none, "fitted" is the bias of an object whose slenderness

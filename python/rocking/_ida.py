@@ -112,8 +112,8 @@ class Curves:
         Returns
         -------
         ndarray of shape (edp, record), or (record,) for a single edp
-            Infinite (censored) where the record never got there; `sample`
-            has the intensity up to which it was run.
+            Infinite (censored) if the record never reached it; `sample` has
+            the intensity up to which it was run.
 
         >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
         >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
@@ -130,10 +130,10 @@ class Curves:
     def demands(self, im: ArrayLike) -> Floats:
         """Response of each record at an intensity.
 
-        Linear between the levels that stand, infinite from the first
-        overturning on. Between the last level that stands and overturning a
-        curve says nothing, which is refused: ask at the levels, which
-        `step_im` makes the same for every record. `stripes` counts such
+        Linear between the levels at which the block stays up, infinite from
+        the first overturning on. Between the last such level and overturning a
+        curve gives no demand, and the call raises an error: use the levels,
+        which `step_im` makes the same for every record. `stripes` counts such
         records instead.
 
         Returns
@@ -169,7 +169,8 @@ class Curves:
         self, ims: ArrayLike, *, edp: float | None = None
     ) -> tuple[StripeResponses, ...]:
         """Responses of the records at given intensities; `edp` is the level
-        whose exceedances are counted where every record was run so far."""
+        whose exceedances are counted if every record was run up to the
+        intensity."""
         levels = floats(ims, "intensities").tolist()
         return StripeResponses._all(self._native.stripes(levels, edp))
 
@@ -263,8 +264,8 @@ class Ida(Curves):
     @cached_property
     def setting(self) -> dict[str, Any]:
         """What was analysed, with the names of the table's columns;
-        `alpha_rad` is None where slenderness was adjusted, and `order`
-        always: the order of the Taylor polynomial is free."""
+        `alpha_rad` is None if slenderness was adjusted, and `order` always:
+        the order of the Taylor polynomial is free."""
         return self._table.setting()
 
     @cached_property
@@ -298,7 +299,7 @@ class Ida(Curves):
 
     @property
     def block(self) -> Block | None:
-        """The block; None where its slenderness was adjusted."""
+        """The block; None if its slenderness was adjusted."""
         alpha, p = self.setting["alpha_rad"], self.setting["p_rad_s"]
         return None if alpha is None else Block(alpha=alpha, p=p)
 
@@ -341,12 +342,11 @@ class Ida(Curves):
     ) -> ImCurves:
         """The curves against an intensity measure.
 
-        Its name is that of the command line: "pga", which is
-        PGA/(g tan alpha), "pgv", which is p PGV/(g tan alpha); and with the
-        records of the analysis in `suite` "pgd", "arias", "cav", "pgv-d575"
-        (PGV D5-75^(1/4)), "sa:T", "avgsa:T1,T2,..", periods in s, or
-        "column:NAME" of the records' attributes, proportional to the
-        acceleration.
+        Its name is as on the command line: "pga", which is PGA/(g tan alpha),
+        "pgv", which is p PGV/(g tan alpha); and with the records of the
+        analysis in `suite` "pgd", "arias", "cav", "pgv-d575" (PGV
+        D5-75^(1/4)), "sa:T", "avgsa:T1,T2,..", periods in s, or "column:NAME"
+        of the records' attributes, proportional to the acceleration.
         """
         return ImCurves(self, im, None if suite is None else tuple(suite))
 
@@ -402,7 +402,7 @@ class Ida(Curves):
         different levels: beyond its end a row holds NaN, and the outcome "".
         The variables are columns of `to_pandas`. `overturning_intensity_pga`
         has the first overturning of each record as `capacities` gives it,
-        refined, and infinite where the record never overturned the block.
+        refined, and infinite if the record never overturned the block.
         """
         import xarray
 
@@ -473,7 +473,7 @@ class ImCurves(Curves):
 
 
 def _events(records: Sequence[Record]) -> list[str]:
-    """The attribute `event` of all records; empty where none has it."""
+    """The attribute `event` of all records; empty if none has it."""
     found = [record.attributes.get("event", "") for record in records]
     if not any(found):
         return []
@@ -557,9 +557,9 @@ def ida(
     eta, model, overturn
         As in `respond`.
     highest_im : float
-        Where curves end that never overturn.
+        The intensity at which curves end that never overturn.
     resurrections_to : float or True, optional
-        Go on above the first overturning and look where the block stands
+        Go on above the first overturning and find where the block stays up
         again: to this PGA/(g tan alpha), or to 3 times the first overturning.
         `Ida.summarise` counts these levels; capacities do not change.
     gravity : float
@@ -568,8 +568,8 @@ def ida(
         All processors unless given; at most eight a processor are started.
         The result does not depend on it.
     progress : callable
-        Called now and then with (curves done, curves), in the calling
-        thread. What it raises ends the analysis; so does Ctrl-C.
+        Called now and then with (curves done, curves), in the calling thread.
+        An exception in it ends the analysis; so does Ctrl-C.
 
     >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
     >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
@@ -688,12 +688,12 @@ def cloud(
 ) -> CloudFragility:
     """Cloud analysis: fragilities from the responses to unscaled records.
 
-    ln EDP = a + b ln(IM - shift) + sigma eps over the records as they are,
-    EDP the peak |theta|/alpha. Where the block overturns, EDP is known only to
-    be at least 1 (Tobit regression). Records that do not rock the block, or
-    whose intensity is not above the shift, are left out and counted. The
-    fragility of a level is lognormal above the shift, with median
-    shift + exp((ln edp - a)/b) and dispersion sigma/b.
+    ln EDP = a + b ln(IM - shift) + sigma eps over the records as they are, EDP
+    the peak |theta|/alpha. If the block overturns, EDP is known only to be at
+    least 1 (Tobit regression). Records that do not rock the block, or whose
+    intensity is not above the shift, are left out and counted. The fragility
+    of a level is lognormal above the shift, with median shift + exp((ln edp -
+    a)/b) and dispersion sigma/b.
 
     Parameters
     ----------

@@ -227,12 +227,13 @@ class Record(Frozen):
     units : str
         Unit of the samples: "g", "m/s2" or "cm/s2". There is no default.
     name : str
-        Name by which results refer to the record. Where no record of a suite
-        has one, results number them from 1; two of one name are refused.
+        Name by which results refer to the record. If no record of a suite has
+        one, results number them from 1; two records with one name are
+        rejected.
     gravity : float
         Gravity in m/s2 by which samples of the latter two are divided.
     attributes : mapping of str to str
-        What else is known: magnitude, distance, file, ...
+        Other data of the record: magnitude, distance, file, ...
 
     >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
     >>> lobe.pga_g, lobe.duration
@@ -329,7 +330,7 @@ class Record(Frozen):
         `units` must. A default label (ObsPy's `...`, eqsig's `m1`) is no name.
 
         Refused are an index of whole numbers, as pandas numbers the rows of a
-        table (`Record(series, dt, units=...)` takes the samples alone), and a
+        table (`Record(series, dt, units=...)` takes only the samples), and a
         trace whose `stats.calib` is not 1: ObsPy does not record whether its
         data were multiplied by it.
 
@@ -413,8 +414,8 @@ def _interval(index: Any) -> float:
     elif times.dtype.kind in "iu":
         raise ValueError(
             "index of whole numbers, as pandas numbers rows: expected times "
-            "in s, or time steps; Record(series, dt, units=...) takes the "
-            "samples alone"
+            "in s, or time steps; Record(series, dt, units=...) takes "
+            "only the samples"
         )
     elif times.dtype.kind != "f":
         raise ValueError(
@@ -454,7 +455,7 @@ class Suite(Sequence[Record]):
         return iter(self.records)
 
     def __add__(self, other: object) -> Suite:
-        """The records of both; a name in both is refused."""
+        """The records of both; a name in both is rejected."""
         if not isinstance(other, Suite):
             return NotImplemented
         names = {record.name for record in self} - {""}
@@ -514,18 +515,18 @@ def read_record(
     units: Units | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Record:
-    """Reads one record file; its content tells the format.
+    """Reads one record file; the format is recognised by its content.
 
     Formats: RECORD_FORMATS.
 
-    A file of several components is refused: `read_suite` takes the folder that
-    holds it. What is suspicious is in `remarks` and in a `UserWarning`.
+    A file of several components is rejected: use `read_suite` on its folder.
+    Suspicious data are reported in `remarks` and in a `UserWarning`.
 
     Parameters
     ----------
     path : str or path-like
     dt : float, optional
-        Sampling interval in s; needed if the file states none, and refused if
+        Sampling interval in s; needed if the file states none, and rejected if
         it contradicts the file.
     units : "g", "m/s2" or "cm/s2", optional
         Unit of the samples; as `dt`.

@@ -76,7 +76,7 @@ class Estimate(Result):
     """None of a number without an interval."""
     high: float | None
     standard_error: float | None
-    """Of the logarithm, where the number is positive."""
+    """Of the logarithm, if the number is positive."""
     level: float
     used: int
     """Samples drawn that gave a finite value."""
@@ -85,16 +85,17 @@ class Estimate(Result):
 
 @dataclass(frozen=True)
 class IntervalBasis(Result):
-    """What intervals rest on."""
+    """Basis of intervals."""
 
     replicates: int
     seed: int
     drawn: str
-    """What was drawn: records, or earthquakes with all their records."""
+    """The unit that was drawn: records, or earthquakes with all their
+    records."""
     level: float
     remark: str | None
-    """What makes the intervals rough: fewer than 8 earthquakes (records) or
-    200 draws. Of fewer than 3 there is no interval."""
+    """Why the intervals are rough: fewer than 8 earthquakes (records) or 200
+    draws. Of fewer than 3 there is no interval."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +141,7 @@ class Needed(Result):
     for_median: float
     for_dispersion: float
     intraclass_correlation: float | None
-    """None where no earthquake has two records."""
+    """None if no earthquake has two records."""
     design_effect: float
     """Number of records that are worth one independent record."""
 
@@ -156,7 +157,7 @@ class ShiftInterval(Result):
 
 @dataclass(frozen=True)
 class Transformed(Result):
-    """What Eqs. 5 to 7 make of the unshifted statistics."""
+    """Eqs. 5 to 7 applied to the unshifted statistics."""
 
     shift: float
     c: float
@@ -227,7 +228,7 @@ class Normality(Result):
 
 @dataclass(frozen=True)
 class Quantile(Result):
-    """A quantile of a sample; None where it is censored."""
+    """A quantile of a sample; None if it is censored."""
 
     probability: float
     value: float | None
@@ -353,20 +354,20 @@ class Comparison(Result):
 
 @dataclass(frozen=True)
 class ContrastedSample(Result):
-    """One sample of a contrast; `median` is None where censored values leave
-    it open."""
+    """One sample of a contrast; `median` is None if censored values leave it
+    unknown."""
 
     n: int
     censored: int
     median: float | None
     drawn: str
-    """What the bootstrap draws."""
+    """The unit that the bootstrap draws."""
 
 
 @dataclass(frozen=True)
 class MedianRatio(Result):
-    """A ratio of medians with its bootstrap interval; its ends are None where
-    a tenth of the draws leave it open."""
+    """A ratio of medians with its bootstrap interval; its ends are None if a
+    tenth of the draws leave it open."""
 
     point: float
     low: float | None
@@ -375,7 +376,7 @@ class MedianRatio(Result):
     open: int
     """Draws in which censored values leave the ratio open."""
     remark: str | None
-    """What makes the interval rough: few records, earthquakes or draws."""
+    """Why the interval is rough: few records, earthquakes or draws."""
 
 
 @dataclass(frozen=True)
@@ -420,7 +421,7 @@ class Slope(Result):
 
 @dataclass(frozen=True)
 class Ranked(Result):
-    """What was found of one intensity measure.
+    """Results for one intensity measure.
 
     `dispersion` is the efficiency, small is good; a small p-value among
     `slopes` says that the measure is not sufficient.
@@ -435,7 +436,7 @@ class Ranked(Result):
 
 @dataclass(frozen=True)
 class Ranking(Result):
-    """Intensity measures in the order in which they were asked for.
+    """Intensity measures in the requested order.
 
     Records that do not reach the response are `censored`: they enter by the
     intensity up to which they were run.
@@ -448,7 +449,7 @@ class Ranking(Result):
     drawn: str
     level: float
     remark: str | None
-    """What makes the intervals rough: few records, earthquakes or draws."""
+    """Why the intervals are rough: few records, earthquakes or draws."""
     no_slope: str | None
     """Why there is no slope."""
     measures: tuple[Ranked, ...]
@@ -490,7 +491,7 @@ class ResolutionCounts(Result):
 
 @dataclass(frozen=True)
 class CurveSummary(Result):
-    """One curve, counted; `overturning_im` is None where the block stands."""
+    """One curve, counted; `overturning_im` is None if the block stays up."""
 
     record: str
     levels: int
@@ -506,10 +507,10 @@ class IdaSummary(Result):
     """Bisection included."""
     overturned_curves: int
     median_overturning_im: float | None
-    """PGA/(g tan alpha); None where half of the curves stand."""
+    """PGA/(g tan alpha); None if half of the curves do not overturn."""
     resolution: ResolutionCounts
     resurrections: int | None
-    """Levels above a first overturning at which the block stands again."""
+    """Levels above a first overturning at which the block stays up again."""
     curves: tuple[CurveSummary, ...]
 
 
@@ -524,8 +525,8 @@ class FrictionNeed(Result):
 
 @dataclass(frozen=True)
 class PivotForces(Result):
-    """Friction |H|/N and normal force N/(m g) that analyses need at the
-    pivot; `largest_friction` is None where N is not positive."""
+    """Friction |H|/N and normal force N/(m g) that analyses need at the pivot;
+    `largest_friction` is None if N is not positive."""
 
     analyses: int
     needs: tuple[FrictionNeed, ...]
@@ -535,9 +536,9 @@ class PivotForces(Result):
 
 @dataclass(frozen=True)
 class StripeResponses(Result):
-    """The responses at one intensity; quantiles are None where the block
-    overturned. Where `open` records were not run so far, quantiles and the
-    share that overturned are too high, and `exceeded` is None."""
+    """The responses at one intensity; quantiles are None if the block
+    overturned. If `open` records were not run up to the intensity, quantiles
+    and the share that overturned are too high, and `exceeded` is None."""
 
     intensity: float
     n: int
@@ -551,7 +552,7 @@ class StripeResponses(Result):
 
 @dataclass(frozen=True)
 class LevelCapacities(Result):
-    """Quantiles of the capacities at one EDP level; None where censored."""
+    """Quantiles of the capacities at one EDP level; None if censored."""
 
     edp: float | None
     im16: float | None
@@ -563,8 +564,8 @@ class LevelCapacities(Result):
 
 @dataclass(frozen=True)
 class LevelCrossings(Result):
-    """All crossings of one EDP level by one curve, and the capacities made
-    of them; None where the level is not reached."""
+    """All crossings of one EDP level by one curve, and the capacities made of
+    them; None if the level is not reached."""
 
     edp: float | None
     median: float | None
@@ -578,7 +579,7 @@ class LevelCrossings(Result):
 class Measures(Result):
     """Intensity measures of a record, or of a pair.
 
-    `spectral_acceleration_g` is at the periods asked for;
+    `spectral_acceleration_g` is at the requested periods;
     `significant_duration_5_75_s` is from 5 to 75 % of the Arias intensity.
     """
 

@@ -33,7 +33,7 @@ class Explanation(Result):
 
     mistakes: tuple[Mistake, ...]
     factor: float | None
-    """Factor on the input at fault, where it was found."""
+    """Factor on the input at fault, if it was found."""
     deviating: int
     """Answers that deviate, or should."""
     explained: int
@@ -41,11 +41,11 @@ class Explanation(Result):
 
 @dataclass(frozen=True)
 class Diagnosis(Result):
-    """What is wrong with a code."""
+    """The fault of a code."""
 
     verdict: Literal["none", "known", "unknown", "too-few"]
     explanations: tuple[Explanation, ...]
-    """Several where the answers cannot tell them apart."""
+    """Several if the answers cannot distinguish them."""
     scatter: float | None
 
 

@@ -86,7 +86,7 @@ class Repeatability(Result):
 
 @dataclass(frozen=True)
 class Resurrected(Result):
-    """Tests at levels at which the block stands again."""
+    """Tests at levels at which the block stays up again."""
 
     tests: int
     overturned: int

@@ -40,11 +40,12 @@ class Sample(Frozen):
     Parameters
     ----------
     values : array_like
-        One value a record; infinite where it is censored.
+        One value per record; infinite if it is censored.
     limits : array_like, optional
-        Up to where a censored record was run; NaN where that is not known.
+        The limit up to which a censored record was run; NaN if that is not
+        known.
     events : sequence of str
-        The earthquake of each record; empty where they are not known.
+        The earthquake of each record; empty if they are not known.
     records : sequence of str
         The name of each record, by which `compare` pairs samples.
 
@@ -106,7 +107,7 @@ def given_sample(sample: Any) -> _rocking.Sample:
     if len(sample._left) > 0 or len(sample._interval) > 0:
         raise ValueError(
             "CensoredData with left- or interval-censored values: expected "
-            "right-censored ones alone"
+            "only right-censored ones"
         )
     limits = [None] * len(sample._uncensored) + sample._right.tolist()
     infinite = np.full(len(sample._right), np.inf)
@@ -128,7 +129,7 @@ def seed(rng: int) -> int:
     """The repetition of a simulation."""
     if isinstance(rng, bool) or not isinstance(rng, int) or rng < 0:
         raise ValueError(
-            f"rng {rng!r}: expected a whole number, not negative; streams "
+            f"rng {rng!r}: expected a non-negative whole number; streams "
             "are the project's own, so that results are the same everywhere"
         )
     return rng
@@ -169,7 +170,7 @@ class Fragility(Result):
         return self._at("cdf", x)
 
     def sf(self, x: ArrayLike) -> Floats:
-        """1 - cdf(x), exact where it is small."""
+        """1 - cdf(x), without cancellation if it is small."""
         return self._at("sf", x)
 
     def pdf(self, x: ArrayLike) -> Floats:
@@ -212,12 +213,12 @@ F = TypeVar("F", bound="FragilityFit")
 
 
 class _Fit(Result):
-    """What has a fitted fragility."""
+    """Base of results with a fitted fragility."""
 
     fitted: Fragility
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws the fragility, with its band where there is one; gives the
+        """Draws the fragility, with its band if there is one; gives the
         matplotlib axes."""
         ax = self.fitted.plot(ax)
         band = getattr(self, "band", None)
@@ -243,7 +244,7 @@ class FragilityFit(_Fit):
     n_left_out: int
     """Values left out because they equal the shift "min"."""
     remarks: tuple[str, ...]
-    """What is weak about the fit."""
+    """Weaknesses of the fit."""
     method: str
     fitted: Fragility
     shift_interval: ShiftInterval | None
@@ -285,8 +286,8 @@ class LevelFit(FragilityFit):
 
     edp: float | None
     dispersion_loss: float | None
-    """How far the log-likelihood lies below that of the level's own
-    dispersion; None of an own dispersion."""
+    """Loss of log-likelihood against the level's own dispersion; None if the
+    fit has that dispersion."""
 
 
 @dataclass(frozen=True)
@@ -302,7 +303,7 @@ class CountsFragility(_Fit):
     fitted: Fragility
     level: float
     intervals: str
-    """What they rest on."""
+    """Basis of the intervals."""
     median: Bounds
     dispersion: Bounds
     log_likelihood: float | None
@@ -332,7 +333,7 @@ class CloudFragility(IntervalBasis):
     overturned: int
     shift: float
     intercept: Estimate
-    """ln EDP where IM - shift is 1."""
+    """ln EDP at IM - shift = 1."""
     slope: Estimate
     deviation: Estimate
     """Standard deviation of ln EDP about the line."""
@@ -394,9 +395,9 @@ def fit_fragility(
     c : float
         Constant of Eq. 7.
     n_resamples : int
-        Bootstrap samples for intervals; 0 for none. Earthquakes are drawn
-        with all their records, where the sample knows them. `remark` says
-        what makes intervals rough; 200 samples know their ends to 5 %.
+        Bootstrap samples for intervals; 0 for none. Earthquakes are drawn with
+        all their records, if the sample knows them. `remark` says why the
+        intervals are rough; 200 samples give their ends to 5 %.
     rng : int
         Repetition of the bootstrap.
     band : array_like
@@ -541,7 +542,7 @@ def contrast(
     Parameters
     ----------
     a, b : array_like, Sample or scipy.stats.CensoredData
-        Positive capacities, infinite where censored.
+        Positive capacities, infinite if censored.
     n_resamples : int
         Bootstrap samples. Earthquakes are drawn with all their records, where
         a sample knows them.

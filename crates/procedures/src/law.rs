@@ -85,10 +85,8 @@ impl LawFragility {
     /// Origin of the fragilities of the law, in words.
     #[must_use]
     pub fn origin(edp: f64) -> String {
-        let what = match edp.is_finite() {
-            true => format!("EDP {edp}"),
-            false => "overturning".to_owned(),
-        };
+        let edp = edp.is_finite().then(|| format!("EDP {edp}"));
+        let what = edp.as_deref().unwrap_or("overturning");
         format!("{what} by the law of AvgSA, without an analysis")
     }
 }

@@ -118,8 +118,7 @@ impl PivotForces {
         for f in curves.iter().flatten() {
             self.analyses += 1;
             for need in &mut self.needs {
-                let more = !(f.friction <= need.friction);
-                need.need_more += usize::from(more);
+                need.need_more += usize::from(!(f.friction <= need.friction));
             }
             self.largest_friction = self.largest_friction.max(f.friction);
             self.least_normal_over_weight =

@@ -230,15 +230,12 @@ fn interval(
     });
     let (lows, highs): (Vec<f64>, Vec<f64>) = all.unzip();
     let basis = &sampled.basis;
-    let of = |value, drawn: &[f64]| {
-        basis.estimate(value, drawn, Range::NotNegative)
-    };
+    let range = Range::NotNegative;
+    let of = |value, drawn: &[f64]| basis.value(value, drawn, range).estimate;
     // A lower bound of 0 has no logarithm.
-    let low = of(lower, &lows).and_then(|found| found.estimate.low());
-    let high = of(upper, &highs)?.estimate.high()?;
-    let interval = Interval::try_new(low.unwrap_or(0.0), high).ok()?;
-    let annual_frequency =
-        Estimate::try_new(lower, interval, Range::NotNegative).ok()?;
+    let low = of(lower, &lows).low().unwrap_or(0.0);
+    let interval = Interval::try_new(low, of(upper, &highs).high()?).ok()?;
+    let annual_frequency = Estimate::try_new(lower, interval, range).ok()?;
     Some(SamplingInterval {
         basis: basis.clone(),
         model_error: basis.model_error,

@@ -54,14 +54,12 @@ pub fn summarise(
         let value = quantile_type.extended_quantile(sample, probability)?;
         Ok(Quantile { probability, value })
     };
+    let quantiles = probabilities.iter().map(quantile);
     Ok(Summary {
         n: sample.len(),
         censored: sample.censored(),
         quantile_type: quantile_type.number(),
-        quantiles: probabilities
-            .iter()
-            .map(quantile)
-            .collect::<Result<_, _>>()?,
+        quantiles: quantiles.collect::<Result<_, _>>()?,
         boxplot: Boxplot::try_new(sample, quantile_type),
     })
 }

@@ -192,9 +192,8 @@ fn scores(levels: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, AcceptanceError> {
     let mut scores = Vec::with_capacity(levels.len());
     for (k, values) in levels.iter().enumerate() {
         let level = k + 1;
-        if values.len() != n {
-            let found = values.len();
-            let expected = n;
+        let (found, expected) = (values.len(), n);
+        if found != expected {
             return Err(AcceptanceError::Lengths { level, found, expected });
         }
         let sample =

@@ -258,11 +258,10 @@ impl Clusters {
             return None;
         }
         let ends = Interval::try_new(y - half, y + half).ok()?;
-        let interval = ends.map(|y| range.unscale(y));
+        let (low, high) = ends.map(|y| range.unscale(y)).ends();
         // Rounding of the transformation and its inverse.
-        let (low, high) = interval.ends();
-        let interval =
-            Interval::try_new(low.min(point), high.max(point)).ok()?;
+        let (low, high) = (low.min(point), high.max(point));
+        let interval = Interval::try_new(low, high).ok()?;
         Some(BootstrapEstimate {
             estimate: Estimate::try_new(point, interval, range).ok()?,
             standard_error: s,
@@ -291,12 +290,9 @@ impl RecordRanks {
     /// The values by record; NaN is a missing value.
     #[must_use]
     pub fn new(values: &[f64]) -> Self {
-        let mut sorted: Vec<(f64, usize)> = values
-            .iter()
-            .enumerate()
-            .filter(|(_, x)| !x.is_nan())
-            .map(|(record, x)| (*x, record))
-            .collect();
+        let values = values.iter().copied().zip(0..);
+        let mut sorted: Vec<(f64, usize)> =
+            values.filter(|(x, _)| !x.is_nan()).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         Self(sorted)
     }
@@ -316,9 +312,7 @@ impl RecordRanks {
     pub fn drawn(&self, counts: &[u32]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.0.len());
         for (x, record) in &self.0 {
-            for _ in 0..counts[*record] {
-                out.push(*x);
-            }
+            out.extend((0..counts[*record]).map(|_| *x));
         }
         out
     }

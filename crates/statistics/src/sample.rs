@@ -87,10 +87,8 @@ impl Sample {
     /// Size of the largest group of equal values.
     #[must_use]
     pub fn largest_tie(&self) -> usize {
-        self.sorted
-            .chunk_by(|a, b| a == b)
-            .map(<[f64]>::len)
-            .fold(0, usize::max)
+        let ties = self.sorted.chunk_by(|a, b| a == b);
+        ties.map(<[f64]>::len).fold(0, usize::max)
     }
 
     /// Arithmetic mean, from a compensated sum.

@@ -62,7 +62,8 @@ impl AssessmentSuite<'_> {
             ..FitOptions::default()
         };
         let sampled = options.sampled(&sample)?;
-        let own = (self.fit(values, shift)?.fitted, sampled);
+        let fitted = sample.fit(shift, options.method)?.distribution;
+        let own = (fitted, sampled);
         let own = FragilityInput::with(name.to_owned(), own, error);
         Ok(own.map_err(FitError::from)?)
     }

@@ -49,9 +49,8 @@ impl Recipe {
     #[must_use]
     pub fn all(quantile_type: QuantileType) -> Vec<Self> {
         let methods = FitMethod::all(quantile_type);
-        let mut all: Vec<Self> =
-            methods.iter().copied().map(Self::Unshifted).collect();
-        all.extend(methods.iter().copied().map(Self::Shifted));
+        let mut all = methods.map(Self::Unshifted).to_vec();
+        all.extend(methods.map(Self::Shifted));
         all.push(Self::Quantiles(quantile_type));
         for method in methods {
             for centre in [Centre::SampleMedian, Centre::FittedMedian] {
@@ -101,10 +100,8 @@ impl Recipe {
             fits.push((method, fit));
             fit
         };
-        recipes
-            .iter()
-            .map(|recipe| recipe.made(sample, shift, &mut unshifted))
-            .collect()
+        let made = |own: &Self| own.made(sample, shift, &mut unshifted);
+        recipes.iter().map(made).collect()
     }
 
     /// The fragility by this recipe of a sample above a shift.

@@ -54,7 +54,16 @@ impl ComputedTests<'_> {
         draws.check()?;
         let fates = self.fates()?;
         let once = fates.once();
-        let computed = self.as_predictor(&fates)?;
+        let name = BLOCK.to_owned();
+        let computed =
+            PredictorNumbers::new(name, self.demands(), &fates, Some(1.0))
+                .map_err(|(motion, source)| ShakingError::Fit {
+                    without: motion.map(|motion| {
+                        let first = fates.motions.members(motion)[0];
+                        self.tests[first].motion.clone()
+                    }),
+                    source,
+                })?;
         let bootstrap = draws.of("shaking", &fates.motions);
         let falls: Vec<bool> =
             self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
@@ -191,11 +200,9 @@ impl ComputedTests<'_> {
                 ("PGA in g".to_owned(), test.pga_g),
                 ("capacity over motion".to_owned(), test.capacity_factor),
             ];
-            let measures = self.options.measures.iter().enumerate();
-            let values = measures.map(|(k, im)| {
-                let value = test.intensities.get(k).copied();
-                (im.to_string(), value.unwrap_or(f64::NAN))
-            });
+            let names = self.options.measures.iter().map(ToString::to_string);
+            let values = test.intensities.iter().copied();
+            let values = names.zip(values.chain(std::iter::repeat(f64::NAN)));
             let mut all = numbers.into_iter().chain(values);
             if let Some((what, found)) = all.find(|one| !is_positive(one.1)) {
                 let test = test.test.clone();
@@ -203,22 +210,6 @@ impl ComputedTests<'_> {
             }
         }
         Ok(Fates { overturned, motions })
-    }
-
-    /// The block as a predictor.
-    fn as_predictor(
-        &self,
-        fates: &Fates,
-    ) -> Result<PredictorNumbers, ShakingError> {
-        let (name, x) = (BLOCK.to_owned(), self.demands());
-        let found = PredictorNumbers::new(name, x, fates, Some(1.0));
-        found.map_err(|(motion, source)| ShakingError::Fit {
-            without: motion.map(|motion| {
-                let first = fates.motions.members(motion)[0];
-                self.tests[first].motion.clone()
-            }),
-            source,
-        })
     }
 }
 

@@ -54,9 +54,8 @@ impl PredictorNumbers {
     /// Predicted probability of overturning of each test.
     pub fn probabilities(&self, fates: &Fates) -> Vec<f64> {
         let tests = self.ln_of_fate.iter().zip(&fates.overturned);
-        let of = |(ln, fate): (&f64, &bool)| match fate {
-            true => exp(*ln),
-            false => -expm1(*ln),
+        let of = |(ln, fate): (&f64, &bool)| {
+            if *fate { exp(*ln) } else { -expm1(*ln) }
         };
         tests.map(of).collect()
     }

@@ -100,11 +100,11 @@ impl NullDistribution {
             })
             .collect();
         let mut all = Vec::with_capacity(replicates as usize);
-        let mut counted = 0;
-        for (statistics, count) in chunks {
-            all.extend(statistics);
-            counted = u64::saturating_add(counted, count);
-        }
+        let counted =
+            chunks.into_iter().fold(0, |sum, (statistics, count)| {
+                all.extend(statistics);
+                u64::saturating_add(sum, count)
+            });
         Ok((Self::from_statistics(n, all), counted))
     }
 

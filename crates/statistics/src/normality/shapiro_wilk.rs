@@ -26,11 +26,9 @@ pub fn shapiro_wilk(
     sample: &Sample,
 ) -> Result<NormalityTest, LillieforsError> {
     let scores = standardised(sample, 4)?;
-    if scores.len() > LARGEST {
-        return Err(LillieforsError::TooMany {
-            found: scores.len(),
-            expected: LARGEST,
-        });
+    let (found, expected) = (scores.len(), LARGEST);
+    if found > expected {
+        return Err(LillieforsError::TooMany { found, expected });
     }
     let deficit = deficit(&weights(scores.len()), &scores);
     let statistic = 1.0 - deficit;

@@ -43,7 +43,7 @@ class ShakingTest:
 
 @dataclass(frozen=True)
 class Predictor(Result):
-    """How well a number of each test predicts the fates."""
+    """How well one number per test predicts the outcomes."""
 
     predictor: str
     right: Bounds
@@ -191,7 +191,7 @@ def read_tests(
     ----------
     path : str or path-like
     fate : str
-        Name of the column of fates.
+        Name of the column of outcomes.
     dt, units, gravity
         As in `read_suite`.
 
@@ -233,7 +233,7 @@ def compare_with_tests(
     gravity: float = STANDARD_GRAVITY,
     threads: int | None = None,
 ) -> TestComparison:
-    """How many fates of tests a block has right, its bias, and its scatter.
+    """How many outcomes of tests a block predicts, its bias, and its scatter.
 
     Parameters
     ----------

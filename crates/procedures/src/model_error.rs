@@ -35,10 +35,10 @@ pub struct ModelErrorFault {
 ///
 /// Each is a value with the range in which it may lie; without a range it
 /// counts as known. The defaults are measured: a computed capacity was set
-/// beside 490 fates of two rocks, whose angle was fitted to them. That gives
-/// the dispersion, and 6 % of bias of a fitted object. The range of an object
-/// that was not fitted also holds a coefficient of restitution from 0.85 to
-/// 0.97, which moves the capacity by 0.82 to 1.22.
+/// beside 490 outcomes of two rocks, whose angle was fitted to them. That
+/// gives the dispersion, and 6 % of bias of a fitted object. The range of an
+/// object that was not fitted also holds a coefficient of restitution from
+/// 0.85 to 0.97, which moves the capacity by 0.82 to 1.22.
 ///
 /// ```
 /// use rocking_procedures::ModelError;

@@ -87,14 +87,14 @@ pub struct TestOptions {
 /// Each record is scaled until the block first overturns, at 0.1 of the onset
 /// of rocking and bisected; over the record that is the test's capacity factor
 /// c. A record that does not overturn the block up to 100 times the onset has
-/// the last level. 1/c, and each measure, predict the fates by a lognormal
+/// the last level. 1/c, and each measure, predict the outcomes by a lognormal
 /// fragility of the highest likelihood (probit). All intervals draw motions
 /// with all their tests. Tests with an unknown outcome are left out.
 ///
 /// # Errors
-/// [`ShakingError`] for fewer than three motions, fates of one kind, fates
-/// that one factor on the capacity separates, measures that a test does not
-/// have, and analyses that are refused.
+/// [`ShakingError`] for fewer than three motions, outcomes of one kind,
+/// outcomes that one factor on the capacity separates, measures that a test
+/// does not have, and analyses that are refused.
 pub fn compare_with_tests(
     tests: &[ShakingTest],
     options: &TestOptions,
@@ -118,20 +118,20 @@ pub const TEST_LEVEL: f64 = 0.9;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TestComparison {
-    /// Number of tests with a known fate.
+    /// Number of tests with a known outcome.
     pub tests: usize,
     /// Number of motions of these tests, the unit of all intervals.
     pub motions: usize,
     /// Tests in which the specimen overturned.
     pub overturned: usize,
-    /// Tests whose fate is unknown, which are left out.
+    /// Tests whose outcome is unknown, which are left out.
     pub unknown: usize,
     /// Tests whose motion does not overturn the block at any level that was
     /// run: their capacity counts as the last level.
     pub never_overturned: usize,
     /// Slenderness of the block in rad; with an interval if it was fitted.
     pub alpha_rad: Estimate,
-    /// Whether the slenderness was fitted to these fates.
+    /// Whether the slenderness was fitted to these outcomes.
     pub alpha_is_fitted: bool,
     /// Frequency parameter of the block in rad/s.
     pub p_rad_s: f64,
@@ -147,9 +147,9 @@ pub struct TestComparison {
     pub seed: u64,
     /// Why the intervals are rough, if they are.
     pub remark: Option<String>,
-    /// The block as a predictor of fates.
+    /// The block as a predictor of outcomes.
     pub computed: Predictor,
-    /// Intensity measures as predictors of the same fates.
+    /// Intensity measures as predictors of the same outcomes.
     pub rivals: Vec<Predictor>,
     /// Measures that have no fit to the measured outcomes, or none to the
     /// computed ones.
@@ -183,8 +183,8 @@ pub struct TestComparison {
 pub struct Predictor {
     /// The block, or an intensity measure.
     pub predictor: String,
-    /// Share of fates that are right: of the block as computed, of a measure
-    /// by a predicted probability above 0.5.
+    /// Share of outcomes that are right: of the block as computed, of a
+    /// measure by a predicted probability above 0.5.
     pub right: Estimate,
     /// Median m: of the block the bias, the median of measured over computed
     /// capacity, 1 if alpha is fitted; of a measure in its unit.
@@ -194,7 +194,7 @@ pub struct Predictor {
     /// Probability that a test that overturned the specimen has a larger
     /// number than one that did not (area under the ROC curve).
     pub auc: Estimate,
-    /// Mean of -ln of the predicted probability of the fate; small is good.
+    /// Mean of -ln of the predicted probability of the outcome; small is good.
     pub log_score: Estimate,
     /// Log-likelihood of the fit to all tests.
     pub log_likelihood: f64,
@@ -206,7 +206,7 @@ pub struct Predictor {
 pub struct UnfittedMeasure {
     /// Intensity measure.
     pub im: String,
-    /// Whether the computed fates have no fit; else the measured ones, of
+    /// Whether the computed outcomes have no fit; else the measured ones, of
     /// all tests or of those of all motions but one.
     pub computed: bool,
     /// Why.
@@ -231,9 +231,9 @@ pub struct ReliabilityClass {
 pub struct Repeatability {
     /// Pairs of tests of one motion whose PGA differ by 5 % or less.
     pub pairs: usize,
-    /// Pairs of different fates among them.
+    /// Pairs of different outcomes among them.
     pub different: usize,
-    /// Motions with both fates.
+    /// Motions with both outcomes.
     pub mixed_motions: usize,
     /// Motions among them that overturned the specimen at a lower PGA than
     /// one at which it stood.
@@ -260,7 +260,7 @@ pub struct Resurrected {
     pub right_at_level: f64,
 }
 
-/// Log-likelihood of the fates above the onset of rocking, g tan(alpha) (g
+/// Log-likelihood of the outcomes above the onset of rocking, g tan(alpha) (g
 /// alpha for Eq. 2), by the quantity that the scatter of the model multiplies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -285,7 +285,7 @@ pub struct OnsetComparison {
     pub pga_shifted: Option<f64>,
 }
 
-/// Two fragilities fitted in the same way to the same tests: to the fates
+/// Two fragilities fitted in the same way to the same tests: to the outcomes
 /// that were measured and to those that the block has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -1,4 +1,4 @@
-//! The table of shaking-table tests: an index of a suite, with the fate of
+//! The table of shaking-table tests: an index of a suite, with the outcome of
 //! each test.
 
 use std::collections::BTreeMap;
@@ -76,7 +76,7 @@ impl ShakingTest {
 pub struct TestTable<'a> {
     /// The table, in messages.
     pub path: &'a str,
-    /// Column of the fates.
+    /// Column of the outcomes.
     pub fate: &'a str,
     /// Processing of every motion before it is scaled.
     pub processing: Processing,
@@ -149,7 +149,7 @@ impl TestTable<'_> {
             ));
         };
         if !has(self.fate) {
-            lacks(self.fate, &format!("the fate of each test, {FATES}"));
+            lacks(self.fate, &format!("the outcome of each test, {FATES}"));
         }
         if member.event.is_none() && !has(MOTION_COLUMN) {
             lacks(

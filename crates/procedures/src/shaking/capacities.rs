@@ -24,7 +24,7 @@ pub(super) const ENDS: [f64; 2] = [1e-3, 1.2];
 /// with alpha, and the median of 490 tests with them by as much.
 const NEAR: f64 = 1e-3;
 
-/// The tests of known fate, normalised, with the values of their measures.
+/// The tests of known outcome, normalised, with the values of their measures.
 pub(super) struct TestRecords<'a> {
     tests: Vec<&'a ShakingTest>,
     unknown: usize,
@@ -51,7 +51,7 @@ impl<'a> TestRecords<'a> {
         })
     }
 
-    /// The numbers of the tests, with the fates at their levels.
+    /// The numbers of the tests, with the outcomes at their levels.
     pub fn computed(&self) -> Result<ComputedTests<'a>, ShakingError> {
         let mut found = match self.options.slenderness {
             Slenderness::Given(block) => self.of_block(block)?,
@@ -80,7 +80,7 @@ impl<'a> TestRecords<'a> {
         }
     }
 
-    /// The capacities of a block, without the fates at the level.
+    /// The capacities of a block, without the outcomes at the level.
     fn of_block(
         &self,
         block: Block,

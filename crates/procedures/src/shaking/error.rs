@@ -13,28 +13,28 @@ use rocking_statistics::lognormal::FitError;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ShakingError {
-    /// There is no test with a known fate.
-    #[error("{unknown} tests, none with a known fate: expected both fates")]
+    /// There is no test with a known outcome.
+    #[error("{unknown} tests, no known outcome: expected both outcomes")]
     NoTests {
-        /// Tests whose fate is unknown.
+        /// Tests whose outcome is unknown.
         unknown: usize,
     },
     /// Too few motions, the unit of the intervals.
     #[error("{found} motions of {tests} tests: expected at least 3")]
     Motions {
-        /// Number of motions with a known fate.
+        /// Number of motions with a known outcome.
         found: usize,
-        /// Number of tests with a known fate.
+        /// Number of tests with a known outcome.
         tests: usize,
     },
     /// Outcomes of one kind bound the capacity on only one side.
     #[error(
-        "{which} {tests} tests overturned the specimen: expected both fates"
+        "{which} {tests} tests overturned the specimen: expected both outcomes"
     )]
     OneFate {
         /// `all`, or `none of`.
         which: &'static str,
-        /// Number of tests with a known fate.
+        /// Number of tests with a known outcome.
         tests: usize,
     },
     /// The outcomes determine no scatter of the capacity.

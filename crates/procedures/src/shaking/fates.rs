@@ -1,11 +1,11 @@
-//! The fates of tests by motion, and fits of a number to them.
+//! The outcomes of tests by motion, and fits of a number to them.
 
 use super::TEST_LEVEL;
 use rocking_statistics::lognormal::{FitError, Stripe, fit_counts_alone};
 use rocking_statistics::resampling::Resampling;
 use rocking_statistics::{Clusters, Estimate, Lognormal, Range, normal};
 
-/// Fates of tests by motion.
+/// Outcomes of tests by motion.
 pub(super) struct Fates {
     pub overturned: Vec<bool>,
     pub motions: Clusters,
@@ -52,7 +52,7 @@ pub(super) fn probit(
     fit_counts_alone(&drawn.map(stripe).collect::<Vec<_>>(), shift)
 }
 
-/// ln of the probability that a fragility gives a fate.
+/// ln of the probability that a fragility gives an outcome.
 pub(super) fn ln_probability(of: &Lognormal, x: f64, overturned: bool) -> f64 {
     let z = of.score(x);
     normal::ln_cdf(if overturned { z } else { -z })

@@ -28,10 +28,10 @@ const LEAST_MOTIONS: usize = 3;
 /// Tests with computed capacities: the input of a comparison, without records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComputedTests<'a> {
-    /// The tests whose fate is known, with the values of all measures; their
-    /// probabilities are not read.
+    /// The tests whose outcome is known, with the values of all measures;
+    /// their probabilities are not read.
     pub tests: Vec<TestResult>,
-    /// Number of tests whose fate is unknown.
+    /// Number of tests whose outcome is unknown.
     pub unknown: usize,
     /// The block.
     pub block: Block,
@@ -43,7 +43,7 @@ pub struct ComputedTests<'a> {
 }
 
 impl ComputedTests<'_> {
-    /// Compares the fates with what was computed.
+    /// Compares the outcomes with what was computed.
     ///
     /// # Errors
     /// [`ShakingError`] as of
@@ -68,7 +68,7 @@ impl ComputedTests<'_> {
         let falls: Vec<bool> =
             self.tests.iter().map(|t| t.capacity_factor <= 1.0).collect();
         // Scores of a predictor in the draws, and differences to its fragility
-        // of the computed fates.
+        // of the computed outcomes.
         let drawn = |of: &PredictorNumbers, is_compared: bool| {
             let rows = bootstrap.map(|places| {
                 let counts = multiplicities(places, falls.len());

@@ -4,7 +4,7 @@ use super::fates::{Fates, ln_probability, log_likelihood, probit};
 use super::{OnsetComparison, Resurrected, TestResult};
 use libm::exp;
 
-/// Likelihoods of the fates above the onset of rocking.
+/// Likelihoods of the outcomes above the onset of rocking.
 pub(super) fn onset(tests: &[TestResult], onset_g: f64) -> OnsetComparison {
     let (above, below): (Vec<_>, Vec<_>) =
         tests.iter().partition(|test| test.pga_g > onset_g);

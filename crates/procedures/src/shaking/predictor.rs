@@ -1,4 +1,4 @@
-//! A number of each test as a predictor of the fates, and its measured and
+//! A number of each test as a predictor of the outcomes, and its measured and
 //! computed fragilities.
 
 use super::fates::{Fates, left_out, log_likelihood, probit};
@@ -14,9 +14,9 @@ pub(super) struct PredictorNumbers {
     pub x: Vec<f64>,
     /// Tests in ascending order of the number.
     order: Vec<usize>,
-    /// Whether each fate is right.
+    /// Whether each outcome is right.
     right: Vec<bool>,
-    /// ln of the predicted probability of each fate.
+    /// ln of the predicted probability of each outcome.
     ln_of_fate: Vec<f64>,
     pub fit: Lognormal,
 }
@@ -26,8 +26,8 @@ pub(super) struct PredictorNumbers {
 pub(super) type Scores = [f64; 5];
 
 impl PredictorNumbers {
-    /// Fits the fates; `threshold` is the least number at which overturning is
-    /// predicted; `None` if the probability decides.
+    /// Fits the outcomes; `threshold` is the least number at which overturning
+    /// is predicted; `None` if the probability decides.
     ///
     /// # Errors
     /// The motion that was left out, if one was, and why there is no fit.

@@ -197,7 +197,7 @@ fn what_cannot_be_compared_is_refused() {
     assert_eq!(stood, Err(one_fate("none of")));
     let few = ShakingError::Motions { found: 2, tests: 12 };
     assert_eq!(refused(&all[..12]), Err(few));
-    // The specimen is the block itself: one factor parts the fates.
+    // The specimen is the block itself: one factor parts the outcomes.
     let found = refused(&all).unwrap();
     let same = all.iter().zip(&found.each).map(|(test, own)| {
         let (fell, stood) = (TestFate::Overturned, TestFate::Stood);

@@ -14,8 +14,7 @@ use self::ground::{AssessmentSuite, ObjectResult};
 use super::fit::{Band, IntervalBasis};
 use super::risk::FragilityRisk;
 use super::{
-    Draws, FragilityFit, ModelError, ProcedureError, Ranking, RiskError,
-    StripeResponses,
+    Draws, FragilityFit, ModelError, ProcedureError, Ranking, StripeResponses,
 };
 use crate::fragility::hazard::Hazard;
 use crate::fragility::risk::Contribution;
@@ -426,9 +425,6 @@ pub enum AssessError {
     /// A coefficient is out of range.
     #[error(transparent)]
     Block(#[from] BlockError),
-    /// A time is out of range.
-    #[error(transparent)]
-    Risk(#[from] RiskError),
 }
 
 /// Assesses objects under the records of one suite, whose earthquakes are

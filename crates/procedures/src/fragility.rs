@@ -17,9 +17,9 @@ use libm::{exp, expm1, log, log1p};
 use thiserror::Error;
 
 use rocking_statistics::Lognormal;
-use rocking_statistics::lognormal::{LognormalError, check_shift};
+use rocking_statistics::lognormal::{FitError, LognormalError, check_shift};
 
-/// Why one of Eqs. 5 to 7 has no value.
+/// Why one of Eqs. 5 to 7, or a fragility by them, has no value.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FragilityError {
@@ -58,6 +58,9 @@ pub enum FragilityError {
     /// A constant c that is negative or not finite.
     #[error("Eq. 7: c = {0}: expected a finite, non-negative number")]
     Constant(f64),
+    /// The unshifted or shifted fit that a recipe needs.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// Parameters that make no distribution.
     #[error(transparent)]
     Parameters(#[from] LognormalError),

@@ -128,14 +128,10 @@ pub struct FragilityRisk {
     pub sampling: Option<SamplingInterval>,
 }
 
-/// Why a risk was refused.
+/// A time that is not a positive number of years.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum RiskError {
-    /// A time is positive.
-    #[error("{0} years: expected a positive number")]
-    Years(f64),
-}
+#[error("{0} years: expected a positive number")]
+pub struct RiskError(f64);
 
 /// Annual frequency of damage of fragilities F, named and in the unit of the
 /// hazard curve H, and probability of damage in `years` T.
@@ -177,7 +173,7 @@ pub fn risk(
     years: f64,
 ) -> Result<Risk, RiskError> {
     if !(years > 0.0 && years.is_finite()) {
-        return Err(RiskError::Years(years));
+        return Err(RiskError(years));
     }
     let (first, last) = hazard.curve.ends();
     let point = |(intensity, annual_frequency)| HazardPoint {

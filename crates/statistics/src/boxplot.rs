@@ -5,20 +5,15 @@ use thiserror::Error;
 
 use super::{ExtendedSample, Interval, QuantileType};
 
-/// Why a sample has no boxplot.
+/// The upper quartile falls on a censored value: there is no boxplot.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("upper quartile is infinite: {censored} of {n} values are infinite")]
 #[non_exhaustive]
-pub enum BoxplotError {
-    /// The upper quartile falls on a censored value.
-    #[error(
-        "upper quartile is infinite: {censored} of {n} values are infinite"
-    )]
-    InfiniteQuartile {
-        /// Number of infinite values.
-        censored: usize,
-        /// Size of the sample.
-        n: usize,
-    },
+pub struct BoxplotError {
+    /// Number of infinite values.
+    pub censored: usize,
+    /// Size of the sample.
+    pub n: usize,
 }
 
 /// A boxplot: quartiles, whiskers, outliers and McGill's notch.
@@ -84,15 +79,13 @@ impl Boxplot {
     /// Boxplot of a sample; infinite values are outliers.
     ///
     /// # Errors
-    /// [`BoxplotError::InfiniteQuartile`] if the box itself is infinite.
+    /// [`BoxplotError`] if the box itself is infinite.
     pub fn try_new(
         sample: &ExtendedSample,
         quantile_type: QuantileType,
     ) -> Result<Self, BoxplotError> {
-        let infinite = BoxplotError::InfiniteQuartile {
-            censored: sample.censored(),
-            n: sample.len(),
-        };
+        let infinite =
+            BoxplotError { censored: sample.censored(), n: sample.len() };
         let at = |p| quantile_type.finite_quantile(sample, p).ok_or(infinite);
         let (q1, median, q3) = (at(0.25)?, at(0.5)?, at(0.75)?);
         let iqr = q3 - q1;

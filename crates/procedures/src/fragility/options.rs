@@ -90,7 +90,7 @@ impl Recipe {
         recipes: &[Self],
         sample: &ExtendedSample,
         shift: f64,
-    ) -> Vec<Result<Lognormal, RecipeError>> {
+    ) -> Vec<Result<Lognormal, FragilityError>> {
         let mut fits: Vec<(FitMethod, Fitted)> = Vec::new();
         let mut unshifted = |method| {
             if let Some((_, fit)) = fits.iter().find(|(m, _)| *m == method) {
@@ -117,12 +117,12 @@ impl Recipe {
     /// ```
     ///
     /// # Errors
-    /// [`RecipeError`] if the fit or the equation has no value.
+    /// [`FragilityError`] if the fit or the equation has no value.
     pub fn fragility(
         &self,
         sample: &ExtendedSample,
         shift: f64,
-    ) -> Result<Lognormal, RecipeError> {
+    ) -> Result<Lognormal, FragilityError> {
         self.made(sample, shift, &mut |method| {
             Ok(fit(sample, 0.0, method)?.distribution)
         })
@@ -133,7 +133,7 @@ impl Recipe {
         sample: &ExtendedSample,
         shift: f64,
         unshifted: &mut impl FnMut(FitMethod) -> Fitted,
-    ) -> Result<Lognormal, RecipeError> {
+    ) -> Result<Lognormal, FragilityError> {
         let (log_mean, dispersion) = match *self {
             Self::Unshifted(method) => return Ok(unshifted(method)?),
             Self::Shifted(method) => {
@@ -156,8 +156,7 @@ impl Recipe {
                 (eq5(median, shift)?, beta)
             }
         };
-        let found = Lognormal::try_new(shift, log_mean, dispersion);
-        Ok(found.map_err(FragilityError::from)?)
+        Ok(Lognormal::try_new(shift, log_mean, dispersion)?)
     }
 }
 
@@ -176,18 +175,6 @@ impl fmt::Display for Recipe {
             }
         }
     }
-}
-
-/// Why a recipe gives no fragility.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecipeError {
-    /// The fit was refused.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// An equation has no value.
-    #[error(transparent)]
-    Equation(#[from] FragilityError),
 }
 
 #[cfg(test)]
@@ -265,9 +252,6 @@ mod tests {
         let centre = Centre::SampleMedian;
         let recipe = Recipe::Transformed { method, centre, c: 1.0 };
         let error = recipe.fragility(&wide, 1.0).unwrap_err();
-        assert!(matches!(
-            error,
-            RecipeError::Equation(FragilityError::Scale { .. })
-        ));
+        assert!(matches!(error, FragilityError::Scale { .. }));
     }
 }

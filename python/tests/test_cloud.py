@@ -87,7 +87,7 @@ def test_fragilities_of_a_cloud_are_exported_and_integrated() -> None:
     [
         ({"suite": SUITE[:2]}, "pairs: expected at least 3"),
         ({"edp": [1.5]}, "EDP level 1.5: expected a positive number up to 1"),
-        ({"shift": -1.0}, "shift -1: expected a finite number"),
+        ({"shift": -1.0}, "shift -1: expected a finite, non-negative number"),
         ({"im": "column:none"}, "attribute none: found none"),
         ({"n_resamples": 0}, "a bootstrap of 0 samples"),
     ],

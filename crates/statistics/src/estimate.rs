@@ -30,6 +30,8 @@ pub enum Range {
     NotNegative,
     /// From 0 to 1: a probability, a share, a distance of distributions.
     Share,
+    /// From -1 to 1: a difference of two shares, a correlation.
+    Difference,
 }
 
 impl Range {
@@ -39,6 +41,7 @@ impl Range {
             Self::Real => (f64::NEG_INFINITY, f64::INFINITY),
             Self::NotNegative => (0.0, f64::INFINITY),
             Self::Share => (0.0, 1.0),
+            Self::Difference => (-1.0, 1.0),
         };
         Interval { low, high }
     }

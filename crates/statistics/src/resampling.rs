@@ -169,7 +169,7 @@ impl Clusters {
             }
         };
         let bias = match (how, range) {
-            (Resampling::Bootstrap, Range::Share) => {
+            (Resampling::Bootstrap, Range::Share | Range::Difference) => {
                 centre + (first - range.scale(point))
             }
             _ => 0.0,

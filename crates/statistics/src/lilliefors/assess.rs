@@ -127,6 +127,13 @@ impl LillieforsTest {
         assessment
     }
 
+    /// Whether D exceeds the critical value (strictly), with ties or without;
+    /// `None` if there is no statistic.
+    #[must_use]
+    pub fn exceeds(&self) -> Option<bool> {
+        Some(self.statistic?.d > self.critical_value?)
+    }
+
     /// D over the critical value; none if there is no statistic.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {

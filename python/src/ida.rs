@@ -156,7 +156,7 @@ impl PyIdaTable {
         })
     }
 
-    /// Refuses records that are not those of the table.
+    /// Rejects records that differ from the records of the table.
     fn of_suite<'a>(
         &self,
         suite: impl Iterator<Item = &'a Accelerogram>,

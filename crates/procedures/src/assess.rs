@@ -372,7 +372,7 @@ pub enum AssessError {
          spectral acceleration"
     )]
     Measure(String),
-    /// An analysis was refused.
+    /// An analysis was rejected.
     #[error(transparent)]
     Analysis(#[from] IdaError),
     /// The forces at an object's pivot cannot be computed.

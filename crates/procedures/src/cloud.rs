@@ -104,7 +104,7 @@ pub struct CloudLevel {
 /// two more parameters, and no lognormal fragility.
 ///
 /// `clusters` are the earthquakes of the pairs: these are drawn, without the
-/// records that are left out. A draw that would be refused has no line; where a
+/// records that are left out. A draw that would be rejected has no line; if a
 /// tenth have none there is no interval.
 ///
 /// ```

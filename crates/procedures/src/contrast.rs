@@ -55,7 +55,7 @@ pub enum ContrastError {
          records; a comparison pairs samples of the same records"
     )]
     Shared(String),
-    /// The draws are refused.
+    /// Invalid draws.
     #[error(transparent)]
     Draws(#[from] ProcedureError),
     /// No value is left.
@@ -179,8 +179,7 @@ pub struct Distance {
 ///
 /// # Errors
 /// [`ContrastError`] for a value that is not positive, more than 3000 values,
-/// a record that occurs twice in a sample or in both, and draws that are
-/// refused.
+/// a record that occurs twice in a sample or in both, and invalid draws.
 pub fn contrast<S: AsRef<str>>(
     a: ContrastSample<'_, S>,
     b: ContrastSample<'_, S>,
@@ -263,7 +262,7 @@ impl<S: AsRef<str>> ContrastSample<'_, S> {
     }
 }
 
-/// Refuses samples with a record in common; places do not count as names.
+/// Rejects samples with a record in common; places do not count as names.
 fn refuse_shared<S: AsRef<str>>(
     a: &ContrastSample<'_, S>,
     b: &ContrastSample<'_, S>,

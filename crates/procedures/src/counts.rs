@@ -122,14 +122,15 @@ impl CountsFragility {
 
 /// Fits a lognormal fragility above `shift` to stripes of the same records.
 ///
-/// Where every record has an outcome at every intensity, as [`fit_stripes`]
-/// does. Otherwise by the likelihood of [`RecordOutcome::brackets`]: a record
-/// that stands where its run ends has no outcome beyond, while one that
-/// exceeded the level before counts at every intensity, so that the counts of
-/// those run so far exceed too often. The intervals are those of a bootstrap
-/// that draws the earthquakes of the records, and keeps each record in all
-/// its stripes; a record without an outcome is left out. Without draws they
-/// are those of [`fit_stripes`], of brackets none.
+/// If every record has an outcome at every intensity, the fit is as by
+/// [`fit_stripes`]. Else it uses the likelihood of
+/// [`RecordOutcome::brackets`]: a record that stands where its run ends has no
+/// outcome beyond, while one that exceeded the level before counts at every
+/// intensity, so that the counts of those run so far exceed too often. The
+/// intervals are those of a bootstrap that draws the earthquakes of the
+/// records, and keeps each record in all its stripes; a record without an
+/// outcome is left out. Without draws they are those of [`fit_stripes`], of
+/// brackets none.
 ///
 /// ```
 /// use rocking_procedures::{Draws, fit_outcomes};
@@ -215,10 +216,10 @@ impl RecordOutcome {
     /// Whether each record responds at `edp` (peak |theta|/alpha) or above,
     /// at each intensity; by record.
     ///
-    /// Where some record was not run to one of them, each has instead what it
-    /// says by itself: that it does not exceed the level at its last analysis
-    /// below its capacity ([`InversionRule::Monotone`]), and does at the next;
-    /// or that it does not where its run ends.
+    /// If some record was not run up to one of them, each record has instead
+    /// its own two outcomes: that it does not exceed the level at its last
+    /// analysis below its capacity ([`InversionRule::Monotone`]), and does at
+    /// the next; or that it does not where its run ends.
     ///
     /// # Errors
     /// [`CapacityError::Level`] for a level that is not positive.
@@ -261,9 +262,9 @@ impl RecordOutcome {
         (each == outcomes.len()).then_some(stripes)
     }
 
-    /// What each record, in ascending order, says of its capacity: between
-    /// the last intensity at which it did not exceed the level, 0 if there is
-    /// none, and the first at which it did, infinite if there is none. Where a
+    /// What each record, in ascending order, says of its capacity: between the
+    /// last intensity at which it did not exceed the level, 0 if there is
+    /// none, and the first at which it did, infinite if there is none. If a
     /// record exceeds the level below an intensity at which it does not, its
     /// outcomes are put in order: as many exceed, at the highest intensities.
     ///

@@ -1,10 +1,10 @@
-//! How far the inversion of curves is from their stripes.
+//! Distance of the inversion of curves from their stripes.
 
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 
-/// How far an inversion is from the stripes at a level: the largest
-/// difference, over intensities, between the share of curves whose capacity
-/// is reached and the share that exceed the level there.
+/// Distance of an inversion from the stripes at a level: the largest
+/// difference, over intensities, between the share of curves whose capacity is
+/// reached and the share that exceed the level there.
 ///
 /// The latter, the stripe fragility, counts crossings upwards less crossings
 /// downwards, and falls where curves turn back; the former cannot fall.

@@ -144,7 +144,7 @@ impl ModelError {
     /// The records' law with the values of bias and dispersion.
     ///
     /// # Errors
-    /// [`LognormalError`] for a value that [`TotalFragility`] refuses.
+    /// [`LognormalError`] for a value that [`TotalFragility`] rejects.
     pub fn total(
         &self,
         records: Lognormal,

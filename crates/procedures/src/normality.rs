@@ -19,7 +19,7 @@ const VALUES: u64 = 100_000_000;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalityOptions {
     /// The logarithms above this shift are tested; none tests the values
-    /// themselves. A free shift is refused.
+    /// themselves. A free shift is rejected.
     pub log_above: Option<Shift>,
     /// Level of the tests, in (0, 1).
     pub level: f64,

@@ -95,12 +95,12 @@ pub struct Slope {
 /// Ranks intensity measures by the capacities of a suite.
 ///
 /// `capacities` holds one interval a record, in PGA/(g tan alpha): both ends
-/// equal where the record reaches the level, (limit, infinity) if it was run
-/// up to the limit and did not. The capacity in another measure is its value
-/// at that scale. Efficiency is the dispersion of a lognormal fitted by
-/// maximum likelihood, censored records by their limits (Luco and Cornell,
-/// Earthquake Spectra 23 (2007) 357); sufficiency the slope of ln(capacity) on
-/// a covariate, where no record is censored, with a random intercept for each
+/// equal if the record reaches the level, (limit, infinity) if it was run up
+/// to the limit and did not. The capacity in another measure is its value at
+/// that scale. Efficiency is the dispersion of a lognormal fitted by maximum
+/// likelihood, censored records by their limits (Luco and Cornell, Earthquake
+/// Spectra 23 (2007) 357); sufficiency is the slope of ln(capacity) on a
+/// covariate, if no record is censored, with a random intercept for each
 /// earthquake ([`mixed`]). `clusters` are the earthquakes of the records:
 /// these are drawn.
 ///

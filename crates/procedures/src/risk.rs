@@ -62,7 +62,7 @@ impl FragilityInput {
     /// after the fragility.
     ///
     /// # Errors
-    /// [`LognormalError`] for an error that [`TotalFragility`] refuses.
+    /// [`LognormalError`] for an error that [`TotalFragility`] rejects.
     pub fn with(
         fragility: String,
         (records, sampled): (Lognormal, Option<BootstrapFits>),

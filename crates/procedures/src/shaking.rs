@@ -94,7 +94,7 @@ pub struct TestOptions {
 /// # Errors
 /// [`ShakingError`] for fewer than three motions, outcomes of one kind,
 /// outcomes that one factor on the capacity separates, measures that a test
-/// does not have, and analyses that are refused.
+/// does not have, and invalid analyses.
 pub fn compare_with_tests(
     tests: &[ShakingTest],
     options: &TestOptions,

@@ -73,7 +73,7 @@ impl StripeResponses {
 /// and infinite from the first overturning on.
 ///
 /// `edp` is the level (peak |theta|/alpha, infinite for overturning) whose
-/// exceedances are counted, where no record is open;
+/// exceedances are counted if no record is open;
 /// [`fit_outcomes`](crate::fit_outcomes) takes open ones too.
 ///
 /// # Errors

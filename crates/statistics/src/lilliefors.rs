@@ -26,7 +26,7 @@ use super::{Estimate, Sample, normal};
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LillieforsError {
-    /// Fewer values than are needed: 3 for the statistic, 4 for the test.
+    /// Fewer values than needed: 3 for the statistic, 4 for the test.
     #[error("{found} values: expected at least {least}")]
     TooFew {
         /// Number of values.
@@ -53,7 +53,7 @@ pub enum LillieforsError {
         /// The largest size.
         expected: usize,
     },
-    /// Levels of the test.
+    /// A level outside the range of the test.
     #[error("level {level}: expected a number from {low} to {high}")]
     Level {
         /// The requested level.
@@ -63,10 +63,10 @@ pub enum LillieforsError {
         /// The highest possible one.
         high: f64,
     },
-    /// Replicates of a simulation.
+    /// A number of replicates out of range.
     #[error("{0} replicates: expected 100 to 100000000")]
     Replicates(u64),
-    /// The joint model needs pairs of an onset and a capacity above it.
+    /// A pair that is not an onset and a capacity above it.
     #[error(
         "pair {number}: onset {onset}, capacity {capacity}: expected finite numbers, 0 < onset < capacity"
     )]

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::QuantileType;
 use rocking::stop;
 
-/// Why a sample was refused.
+/// Why values are not a valid sample.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SampleError {

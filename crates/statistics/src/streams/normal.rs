@@ -149,7 +149,7 @@ mod tests {
     use super::*;
     use crate::streams::Streams;
 
-    /// Where a word is refused, in the last of a draw too.
+    /// Also if a word is rejected, and in the last of a draw.
     #[test]
     fn many_at_once_are_those_one_by_one() {
         let streams = Streams::new("test of many at once", 0);

@@ -1,5 +1,6 @@
 //! Fragilities fitted to samples of capacities.
 
+mod draws;
 mod intervals;
 mod levels;
 mod precision;
@@ -10,6 +11,8 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+pub use draws::Draws;
+pub(crate) use draws::check_length;
 pub use intervals::{Band, BandPoint, FitIntervals, IntervalBasis};
 pub use levels::{DispersionRule, LevelFit, fit_levels};
 pub use precision::SampleSize;
@@ -21,7 +24,6 @@ use crate::fragility::total::TotalFragility;
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use rocking::capacity::CapacityError;
 use rocking::stop;
-use rocking_statistics::bootstrap::Bootstrap;
 use rocking_statistics::lilliefors::LillieforsError;
 use rocking_statistics::lognormal::{
     FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
@@ -95,15 +97,6 @@ impl Shift {
             }
         })
     }
-}
-
-/// Draws of a bootstrap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Draws {
-    /// Number of samples drawn, 2 to 1,000,000.
-    pub replicates: usize,
-    /// Seed of the draws.
-    pub seed: u64,
 }
 
 /// Options of a fit: method, shift, quantile type, bootstrap and band.
@@ -496,37 +489,6 @@ impl FitOptions {
         let left_out = sample.len() - above.len();
         Ok(SampleFit { fit, unshifted, transformed, left_out })
     }
-}
-
-impl Draws {
-    /// Checks the number of draws.
-    ///
-    /// # Errors
-    /// [`ProcedureError::Replicates`] unless it lies from 2 to 1,000,000.
-    pub fn check(&self) -> Result<(), ProcedureError> {
-        if (2..=1_000_000).contains(&self.replicates) {
-            return Ok(());
-        }
-        Err(ProcedureError::Replicates(self.replicates))
-    }
-
-    /// The draws of these clusters from the streams of `name`.
-    pub(crate) fn of(self, name: &str, clusters: &Clusters) -> Bootstrap {
-        Bootstrap::of_clusters(name, self.seed, clusters, self.replicates)
-    }
-}
-
-/// Checks that there is one value per record.
-pub(crate) fn check_length(
-    name: &str,
-    found: usize,
-    expected: usize,
-) -> Result<(), ProcedureError> {
-    if found == expected {
-        return Ok(());
-    }
-    let name = name.to_owned();
-    Err(ProcedureError::Length { name, found, expected })
 }
 
 /// Fits a lognormal fragility to a sample of capacities.

@@ -285,7 +285,7 @@ fn bad_input_is_refused_with_its_place() {
         ("sample --sample sample.txt --quantile-type 10", "1 to 9"),
         ("sample --sample sample.txt --at -0.1", "[0, 1]"),
         (&format!("{fit} --shift -1"), "negative"),
-        (&format!("{fit} --shift min --bootstrap 100"), "no interval"),
+        (&format!("{fit} --shift min --bootstrap 100"), "no valid"),
         (&format!("{fit} --im50 2"), "--im50"),
         ("lilliefors --sample sample.txt --n 9", "--n"),
         ("lilliefors --critical-values --n 3", "at least 4"),

@@ -53,7 +53,6 @@ pub struct About {
 
 impl About {
     /// The names and values that are known.
-    #[must_use]
     pub fn of<'a>(
         ground: String,
         known: impl IntoIterator<Item = (&'a str, Option<String>)>,
@@ -130,7 +129,6 @@ fn bytes(
 }
 
 /// The page, beside which `files` lie.
-#[must_use]
 pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
     let title = match found.objects.as_slice() {
         [one] => format!("Rocking of {}", one.id),

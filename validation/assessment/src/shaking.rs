@@ -60,7 +60,6 @@ fn csv(found: &TestComparison) -> String {
 }
 
 /// The page, beside which its other files lie.
-#[must_use]
 pub fn page(found: &TestComparison, about: &About) -> String {
     let title =
         format!("A rigid block against {} shaking-table tests", found.tests);

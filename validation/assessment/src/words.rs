@@ -177,7 +177,6 @@ pub(crate) fn ranked(
 
 /// What the terminal shows: the first sentence, the table, and what recorded
 /// motions change.
-#[must_use]
 pub fn text(found: &Assessment) -> String {
     let mut text = first(found) + "\n\n";
     for (k, head) in heads(found).iter().enumerate() {

@@ -18,7 +18,6 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
 const WIDE_PX: u32 = 640;
 
 /// The head of a page, with all styles.
-#[must_use]
 pub fn head(title: &str) -> Markup {
     html! {
         head {
@@ -35,7 +34,6 @@ pub fn head(title: &str) -> Markup {
 
 /// A figure with title, reading and data; under it, folded, the same figure
 /// of other motions.
-#[must_use]
 pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
     let heading = &shown.heading;
     let (name, title, number) =
@@ -69,7 +67,6 @@ pub fn figure(shown: &Figure, others: &[&Figure]) -> Markup {
 }
 
 /// The SVG without its own style sheet, which the page has once.
-#[must_use]
 pub fn inline(svg: &str) -> String {
     let style = format!("<style>{}</style>\n", colour::STYLE);
     svg.replacen(&style, "", 1)

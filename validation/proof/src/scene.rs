@@ -82,7 +82,6 @@ pub struct Trace {
 
 /// Why an engine gave no trace.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
 pub enum EngineError {
     /// The scene is refused by the code under test.
     #[error("scene refused: {0}")]
@@ -128,33 +127,28 @@ impl CaseScene {
     }
 
     /// The scene in another equation of motion.
-    #[must_use]
     pub fn in_equation(self, model: Model) -> Self {
         Self { model, ..self }
     }
 
     /// The scene, ended by a criterion of overturning.
-    #[must_use]
     pub fn to(self, overturning: Overturning) -> Self {
         Self { overturning, ..self }
     }
 
     /// The scene, observed until this instant (s).
-    #[must_use]
     pub fn until(self, until_s: f64) -> Self {
         Self { until_s: Some(until_s), ..self }
     }
 
     /// The scene under a ground motion that follows from its uplift
     /// threshold (m/s2).
-    #[must_use]
     pub fn under(self, forcing: impl FnOnce(f64) -> Forcing) -> Self {
         Self { forcing: forcing(self.threshold_m_s2()), ..self }
     }
 
     /// The scene under samples at an interval (s), scaled to a peak of so
     /// many uplift thresholds.
-    #[must_use]
     pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
         self.under(|threshold| {
             let mut forcing = Forcing::samples(dt_s, samples);
@@ -165,7 +159,6 @@ impl CaseScene {
     }
 
     /// The scene with other samples at the same interval.
-    #[must_use]
     pub fn with_samples(&self, samples: Vec<f64>) -> Self {
         let mut scene = self.clone();
         if let Some(own) = scene.forcing.samples_mut() {

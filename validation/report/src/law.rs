@@ -210,7 +210,6 @@ impl LawCells {
     }
 
     /// The law as a formula, in a sentence.
-    #[must_use]
     pub fn formula(&self) -> String {
         let sum = |terms: &BTreeMap<String, f64>| {
             let term = |(name, c): (&String, &f64)| match name.as_str() {
@@ -362,7 +361,6 @@ impl LawCells {
     }
 
     /// By how much a part of the motions must be scaled further.
-    #[must_use]
     pub fn parts(&self) -> PlainTable {
         let mut rows: Vec<Vec<String>> = Vec::new();
         let mut header = vec!["suite".to_owned(), "part".to_owned()];

@@ -20,7 +20,6 @@ use rocking_score::{
 };
 
 /// The page of a score: one file, without scripts and network.
-#[must_use]
 pub fn page(scored: &Score) -> String {
     let set = reference();
     let conditions: Vec<f64> = scored

@@ -62,7 +62,6 @@ pub enum Arms {
 ///
 /// # Panics
 /// If a file has another form. The files are compiled in, and a test reads them.
-#[must_use]
 pub fn declared() -> &'static [Declaration] {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]

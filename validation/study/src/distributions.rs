@@ -32,13 +32,11 @@ pub struct BlockSamples {
 
 impl BlockSamples {
     /// Capacities at overturning, the last of the demand levels.
-    #[must_use]
     pub fn overturning(&self) -> &[f64] {
         self.samples.last().map_or(&[], Vec::as_slice)
     }
 
     /// Accepted shares of the levels, by [`SAMPLES`].
-    #[must_use]
     pub fn shares(&self) -> [f64; 2] {
         self.tests.each_ref().map(|tests| accepted_share(tests))
     }
@@ -126,14 +124,12 @@ fn samples(curves: &[ResponseCurve]) -> anyhow::Result<Vec<Vec<f64>>> {
 }
 
 /// A sample in another measure: each capacity times the factor of its record.
-#[must_use]
 pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
     sample.iter().zip(factors).map(|(x, f)| x * f).collect()
 }
 
 /// Factors from PGA/(g tan alpha) to the measure, record by record: 1, or
 /// p PGV/PGA. The least factor is IM_R: at uplift PGA/(g tan alpha) is 1.
-#[must_use]
 pub fn factors(
     records: &[Facts],
     intensity: Intensity,
@@ -144,13 +140,11 @@ pub fn factors(
 }
 
 /// Factors from PGA/(g tan alpha) to AvgSA/(g tan alpha), record by record.
-#[must_use]
 pub fn average_factors(records: &[Facts], frequency: usize) -> Vec<f64> {
     records.iter().map(|r| r.average_ratios[frequency]).collect()
 }
 
 /// The least of some numbers; infinite for an empty slice.
-#[must_use]
 pub fn least(values: &[f64]) -> f64 {
     values.iter().fold(f64::INFINITY, |m, x| if *x < m { *x } else { m })
 }

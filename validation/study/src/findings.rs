@@ -105,7 +105,6 @@ fn remarks(suite: &SuiteResults) -> Option<String> {
 }
 
 /// Files that a suite set aside, by reason.
-#[must_use]
 pub fn set_aside(found: &SetAside) -> Vec<AsideFiles> {
     let reason = |count: AsideCount<'_>| AsideFiles {
         code: count.reason.code().into(),

@@ -23,7 +23,6 @@ const MOST_NEEDED: usize = 30;
 
 /// The least number of records of a cell that counts, in a suite of n records:
 /// half of them, at most 30.
-#[must_use]
 pub fn least_counted(n: usize) -> usize {
     n.div_ceil(2).min(MOST_NEEDED)
 }
@@ -34,7 +33,6 @@ pub struct Resample<'a>([&'a [u32]; 2]);
 
 impl<'a> Resample<'a> {
     /// The multiplicities of a suite's records.
-    #[must_use]
     pub fn of(&self, suite: SuiteKind) -> &'a [u32] {
         self.0[suite as usize]
     }
@@ -55,7 +53,6 @@ pub struct Resamples {
 impl Resamples {
     /// The resamples of suites of these earthquakes, ordinary and
     /// pulse-type. Streams: `study/records/SUITE`, of seed 0.
-    #[must_use]
     pub fn new(clusters: [Clusters; 2]) -> Self {
         let drawn = |suite: SuiteKind| -> Vec<Vec<u32>> {
             let name = format!("study/records/{suite}");
@@ -83,7 +80,6 @@ impl Resamples {
     }
 
     /// Every record once.
-    #[must_use]
     pub fn whole(&self) -> Resample<'_> {
         Resample(self.whole.each_ref().map(Vec::as_slice))
     }
@@ -111,7 +107,6 @@ impl Resamples {
     }
 
     /// Numbers that are smooth in the records, over the bootstrap.
-    #[must_use]
     pub fn smooth(
         &self,
         tested: SuiteSet,
@@ -124,7 +119,6 @@ impl Resamples {
 
     /// Numbers that ties would spoil, over the subsets of a suite without two
     /// earthquakes.
-    #[must_use]
     pub fn untied(
         &self,
         suite: SuiteKind,
@@ -174,21 +168,18 @@ pub struct Replicates {
 
 impl Replicates {
     /// Other numbers as functions of these.
-    #[must_use]
     pub fn map(&self, f: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let rows = self.rows.iter().map(|row| f(row)).collect();
         Self { how: self.how, points: f(&self.points), rows }
     }
 
     /// One number as a function of these.
-    #[must_use]
     pub fn one(&self, f: impl Fn(&[f64]) -> f64) -> Self {
         self.map(|row| vec![f(row)])
     }
 
     /// The numbers with other values of the sample; the resamples are shifted by
     /// the same amounts.
-    #[must_use]
     pub fn moved_to(mut self, points: &[f64]) -> Self {
         let by: Vec<f64> =
             points.iter().zip(&self.points).map(|(a, b)| a - b).collect();

@@ -42,7 +42,6 @@ macro_rules! measures {
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
             /// Unit of the effect, and the range of its values.
-            #[must_use]
             pub fn unit(self) -> (Unit, Range) {
                 match self {
                     $(Self::$name => (Unit::$unit, Range::$range),)+

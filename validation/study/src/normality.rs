@@ -33,14 +33,12 @@ pub fn along(
 
 /// D over its critical value: lognormality is accepted up to 1. NaN if the test
 /// does not apply.
-#[must_use]
 pub fn over_critical(assessment: &LillieforsTest) -> f64 {
     assessment.ratio().unwrap_or(f64::NAN)
 }
 
 /// Share of the tested levels at which lognormality is accepted; NaN if no level
 /// was tested.
-#[must_use]
 pub fn accepted_share(assessments: &[LillieforsTest]) -> f64 {
     let decisions = assessments.iter().filter_map(LillieforsTest::exceeds);
     SampleCount::among(decisions, |exceeds| !exceeds).value
@@ -61,7 +59,6 @@ pub fn every<T>(levels: &[T], stride: usize) -> impl Iterator<Item = &T> {
 /// The accepted share of capacities that are lognormal above `shift`, with the
 /// dependence between levels of these samples; `None` if a capacity is infinite or
 /// not above the shift.
-#[must_use]
 pub fn null_band(
     samples: &[Vec<f64>],
     shift: f64,
@@ -80,7 +77,6 @@ pub fn null_band(
 }
 
 /// Central 95 % of a null band.
-#[must_use]
 pub fn ends(band: &NullBand) -> Option<(f64, f64)> {
     band.central(0.95).map(Interval::ends)
 }

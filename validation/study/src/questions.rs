@@ -29,7 +29,6 @@ pub fn study_answers(
 }
 
 /// Questions and answers as findings.
-#[must_use]
 pub fn findings(answers: &[StudyAnswer]) -> Vec<Question> {
     let one = |answer: &StudyAnswer| Question {
         id: answer.id.into(),

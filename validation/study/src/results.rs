@@ -21,25 +21,21 @@ pub struct StudyResults {
 
 impl StudyResults {
     /// The draws of the earthquakes that bands and claims share.
-    #[must_use]
     pub fn draws(&self) -> Resamples {
         Resamples::new(self.suites().map(|s| s.clusters.clone()))
     }
 
     /// Whether both suites are the embedded ones.
-    #[must_use]
     pub fn embedded(&self) -> bool {
         self.suites().iter().all(|suite| suite.source.is_embedded())
     }
 
     /// The ordinary and the pulse-type suite.
-    #[must_use]
     pub fn suites(&self) -> [&SuiteResults; 2] {
         [&self.ordinary, &self.pulse]
     }
 
     /// The suite of a kind.
-    #[must_use]
     pub fn suite(&self, kind: SuiteKind) -> &SuiteResults {
         if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
     }

@@ -350,7 +350,6 @@ pub(super) fn onsets(found: &TestComparison) -> TestsTable {
 }
 
 /// What the terminal shows.
-#[must_use]
 pub fn text(found: &TestComparison) -> String {
     let (heads, rows) = predictors(found);
     let mut lines = vec![

@@ -24,7 +24,6 @@ pub fn sums(files: &BTreeMap<String, Vec<u8>>) -> Vec<u8> {
 
 /// Reason why the files of a folder are not the files of one run.
 #[derive(Debug, Error)]
-#[non_exhaustive]
 pub enum FolderError {
     /// A run ended while it put files into place.
     #[error(

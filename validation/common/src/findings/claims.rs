@@ -237,7 +237,6 @@ impl Seen {
 
     /// The verdict for two samples or two parts of a statement. A part that is not
     /// testable does not count beside a testable one.
-    #[must_use]
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::NotTestable, one) | (one, Self::NotTestable) => one,

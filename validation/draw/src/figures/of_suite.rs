@@ -38,7 +38,6 @@ fn quantiles(stripes: &[StripeResponses], mark: Mark) -> [Series; 3] {
 
 /// IDA curves with the quantiles of the rotation by intensity, as SVG;
 /// `block` says of what, in markup.
-#[must_use]
 pub fn ida_svg(
     curves: &[ResponseCurve],
     stripes: &[StripeResponses],
@@ -66,7 +65,6 @@ pub fn ida_svg(
 
 /// Rotations at stripes with their quantiles, and the shares of the records
 /// that overturn, as SVG.
-#[must_use]
 pub fn stripes_svg(
     curves: &[ResponseCurve],
     stripes: &[StripeResponses],
@@ -121,7 +119,6 @@ fn lines(all: &[FragilityInput], levels: &[f64]) -> Vec<Series> {
 
 /// Fragilities with what each is fitted to, as SVG: intensities and shares;
 /// `marks` says what that is.
-#[must_use]
 pub fn fragilities_svg(
     all: &[FragilityInput],
     points: &[Vec<(f64, f64)>],
@@ -149,7 +146,6 @@ pub fn fragilities_svg(
 
 /// A hazard curve, the fragilities under it, and the annual frequency of
 /// damage by intensity, as SVG.
-#[must_use]
 pub fn risk_svg(hazard: &Hazard, all: &[FragilityInput]) -> String {
     let points = hazard.curve.points();
     let (first, last) = (points[0].0, points[points.len() - 1].0);

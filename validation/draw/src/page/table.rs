@@ -5,7 +5,6 @@ use maud::{Markup, Render, html};
 use rocking_common::table::PlainTable;
 
 /// The table under its title.
-#[must_use]
 pub fn plain(table: &PlainTable) -> Markup {
     html! {
         div id=(table.name) {
@@ -16,7 +15,6 @@ pub fn plain(table: &PlainTable) -> Markup {
 }
 
 /// The table alone.
-#[must_use]
 pub fn untitled(table: &PlainTable) -> Markup {
     let body = html! {
         table {
@@ -29,7 +27,6 @@ pub fn untitled(table: &PlainTable) -> Markup {
 }
 
 /// A box that scrolls sideways, so that the page does not.
-#[must_use]
 pub fn scrolled(label: &str, body: Markup) -> Markup {
     html! {
         div.scroll role="region" aria-label=(label) tabindex="0" { (body) }
@@ -37,7 +34,6 @@ pub fn scrolled(label: &str, body: Markup) -> Markup {
 }
 
 /// The heads of the columns.
-#[must_use]
 pub fn head<T: Render>(names: &[T]) -> Markup {
     html! {
         thead { tr { @for name in names { th scope="col" { (name) } } } }
@@ -45,7 +41,6 @@ pub fn head<T: Render>(names: &[T]) -> Markup {
 }
 
 /// No line breaks between a number and its per cent, or within a power.
-#[must_use]
 pub fn joined(text: &str) -> String {
     let text = text.replace(" %", "\u{a0}%");
     let digit = |c: char| c.is_ascii_digit();

@@ -20,7 +20,6 @@ pub struct CaseError {
 /// What is wrong with a file of cases; `place` is a case, or a table of
 /// defaults.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
 pub enum CaseFault {
     /// The file is not of the expected form; with its line or its case.
     #[error("{0}")]

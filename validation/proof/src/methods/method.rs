@@ -131,7 +131,6 @@ impl Context<'_> {
 
     /// The scene as the wrong model sees it, where that changes the input;
     /// for methods that run the core themselves.
-    #[must_use]
     pub fn altered(&self, scene: &CaseScene) -> CaseScene {
         let own = |wrong: WrongModel| wrong.altered(scene);
         self.wrong.map_or_else(|| scene.clone(), own)

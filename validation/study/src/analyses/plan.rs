@@ -17,7 +17,6 @@ pub struct Plan {
 
 impl Plan {
     /// The settings in the form of the findings.
-    #[must_use]
     pub fn settings(&self) -> StudySettings {
         StudySettings {
             arms: self.arms.clone(),
@@ -29,7 +28,6 @@ impl Plan {
     }
 
     /// Grids from which figures are drawn: A and C, if they are run.
-    #[must_use]
     pub fn drawn(&self) -> Vec<Arm> {
         let drawn = |arm: &&Arm| **arm != Arm::B;
         self.arms.iter().filter(drawn).copied().collect()
@@ -37,7 +35,6 @@ impl Plan {
 
     /// The grid that the single-record figures share: C if it is run, else the
     /// first.
-    #[must_use]
     pub fn common(&self) -> Arm {
         match self.arms.as_slice() {
             arms if arms.contains(&Arm::C) => Arm::C,

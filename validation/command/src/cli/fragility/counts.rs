@@ -129,7 +129,6 @@ impl CountTable {
     }
 
     /// The counts; none where a record was not run to every intensity.
-    #[must_use]
     pub fn stripes(&self) -> Option<Cow<'_, [Stripe]>> {
         Some(match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),

@@ -112,7 +112,6 @@ pub(in crate::cli) struct FitArgs {
 
 impl FitArgs {
     /// The options of a fit without intervals, quantiles of this type.
-    #[must_use]
     pub(in crate::cli) fn options(
         &self,
         quantile_type: QuantileType,

@@ -172,7 +172,6 @@ pub struct FragilitySource {
 
 impl SourceArgs {
     /// The files that flags name.
-    #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         let many = self.sample.iter().chain(&self.counts);
         many.chain(&self.ida.ida).chain(&self.blocks).cloned().collect()
@@ -394,7 +393,6 @@ impl FragilityLevel {
 
 impl FragilitySource {
     /// The files that the table of blocks names.
-    #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.samples.keys().cloned().collect()
     }

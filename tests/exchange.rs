@@ -193,16 +193,15 @@ fn every_output_of_fragility_says_what_its_intensity_is() {
     let place = folder("unit");
     let one = "fragility fit --sample capacities.txt";
     let text = answer(&place, one);
-    assert!(
-        text.contains("unit                            PGA/(g tan alpha)\n")
-    );
+    assert!(text.contains("\nUnit  "), "{text}");
+    assert!(text.contains("  PGA/(g tan alpha)\n"), "{text}");
     fs::write(place.join("bare.txt"), "1.4\n1.8\n2.5\n").unwrap();
     let bare = json(&place, "fragility fit --sample bare.txt --im pgv");
     assert_eq!(bare["unit"], "p PGV/(g tan alpha)");
     let other = SAMPLE.replace("PGA/(g tan alpha)", "SA(1 s), g");
     fs::write(place.join("other.txt"), other).unwrap();
     let text = answer(&place, "fragility fit --sample other.txt");
-    assert!(text.contains("unit                            SA(1 s), g\n"));
+    assert!(text.contains("  SA(1 s), g\n"), "{text}");
     refused(&place, "fragility fit --sample other.txt --im pga", "SA(1 s)");
 }
 
@@ -223,7 +222,7 @@ fn risk_is_that_of_the_fragility_and_tells_what_lies_beyond() {
         "risk --hazard hazard.csv --sample capacities.txt --shift 1 \
          --alpha 0.1 --p 3",
     );
-    for name in ["fragility                     shifted\n", " not shifted\n"] {
+    for name in ["\nshifted ", "\nnot shifted "] {
         assert!(text.contains(name), "{text}");
     }
     // Both ends in 10 years; -expm1(-10 lambda) by Python.
@@ -426,9 +425,12 @@ fn the_tour_runs() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{error}");
     let said = String::from_utf8_lossy(&output.stdout);
-    for words in
-        ["friction  need more", "delta low", "truncation lower", "SA(1 s)"]
-    {
+    for words in [
+        "Friction  Analyses",
+        "delta method",
+        "frequency, at least",
+        "SA(1 s)",
+    ] {
         assert!(said.contains(words), "no `{words}` in {said}");
     }
     for (name, lines) in [("cabinet-band.csv", 26), ("fragility.csv", 4)] {

@@ -160,7 +160,7 @@ fn a_ranking_tells_the_dispersion_of_the_fits_and_the_slopes() {
     assert!(said.contains("is read: expected another file"), "{said}");
     let one = text(&place, &format!("{words} --threads 1"));
     assert_eq!(one, text(&place, &format!("{words} --threads 2")));
-    assert!(one.contains("\n    ln distance "), "{one}");
+    assert!(one.contains("Slope on ln distance: P-value"), "{one}");
 }
 
 #[test]

@@ -71,10 +71,13 @@ fn fragility_tells_intervals_in_rows_and_the_unit() {
     let fit = "fragility fit --sample sample.txt --shift 1 --bootstrap 50";
     let text = answer(&place, fit);
     assert!(!text.contains(['{', '}', '"', '_']), "{text}");
-    for name in ["log mean", "dispersion", "median", "eq5", "eq6", "eq7"] {
-        let start = format!("  {name} ");
+    let first = text.lines().next().unwrap();
+    assert!(first.starts_with("The fragility has a median of "), "{first}");
+    assert!(first.contains(" (95 % interval "), "{first}");
+    for name in ["Eq. 5", "Eq. 6", "Eq. 7"] {
+        let start = format!("95 % interval of {name} ");
         let mut own = text.lines().filter(|line| line.starts_with(&start));
-        let held = |line: &str| line.contains('[') && line.ends_with(']');
+        let held = |line: &str| line.contains(" (") && line.ends_with(')');
         assert!(own.any(held), "{name}: {text}");
     }
     let rough = "intervals are rough: 50 draws, fewer than 200";

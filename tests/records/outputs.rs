@@ -47,8 +47,8 @@ fn remarks_travel_to_every_result() {
     let out = answer(&folder, &ida);
     let words = "mean is 25.0 % of PGA: instrument offset? PGA is \
                 4.000e-1 g, and 3.000e-1 g without the mean (--demean)";
-    let row = "  records                       1\n  of                            2\n";
-    assert!(out.contains(row) && out.contains(words), "{out}");
+    assert!(out.contains("\nRecords with remarks "), "{out}");
+    assert!(out.contains(words), "{out}");
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
     let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
     assert!(of_b.contains(",end-velocity offset,,0.92,"), "{of_b}");
@@ -97,7 +97,7 @@ fn both_components_of_one_file_are_kept() {
     let folder = folder("channels", &[("x.v2", text.as_bytes())]);
     let both = format!("{IDA} --suite . --component both --out ida.out");
     let out = answer(&folder, &both);
-    assert!(out.contains("\nrecords                         2\n"), "{out}");
+    assert!(out.contains(" of 2 records"), "{out}");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn tables_and_samples_know_what_they_are() {
     let ida = format!("{IDA} --suite . --out -");
     let (status, table, error) = rocking(&folder, &ida, "");
     assert_eq!(status, 0, "{error}");
-    assert!(error.contains("median overturning im"), "{error}");
+    assert!(error.starts_with("The block overturns under "), "{error}");
     let capacities = "capacities --ida - --at 1 --out -";
     let (status, sample, error) = rocking(&folder, capacities, &table);
     assert_eq!((status, error.as_str()), (0, ""));
@@ -220,9 +220,7 @@ fn tables_and_samples_know_what_they_are() {
     write("two.txt", &(lines.join("\n") + "\n"));
     let compare = "compare --a one.txt --b two.txt";
     let out = answer(&folder, compare);
-    let equal = "sign test\n  above                         0\n  \
-                 below                         0\n";
-    assert!(out.contains(equal), "{out}");
+    assert!(out.starts_with("The ratio a/b is centred at 1 "), "{out}");
     write("two.txt", &sample.replace("# a\n", "# z\n"));
     let error = failure(&folder, compare);
     assert!(error.contains("record a is not in the other sample"), "{error}");

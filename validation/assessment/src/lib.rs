@@ -25,7 +25,7 @@ use rocking_synthesis::SuiteKind;
 use serde::Deserialize;
 
 pub use data::json;
-pub use words::text;
+pub use words::{text, years};
 
 use words::{answer_cells, answer_heads, measure, short};
 

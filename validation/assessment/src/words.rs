@@ -26,9 +26,39 @@ pub(crate) fn three_digits(estimate: &Estimate) -> String {
     rounded_text(estimate, 3)
 }
 
+/// A number of years with its interval, in two significant digits: `740 years
+/// (95 % interval 330 to 1,700)`.
+#[must_use]
+pub fn years(estimate: &Estimate) -> String {
+    let exact = thousands(estimate.value());
+    let ends = estimate.interval().map_or(String::new(), |interval| {
+        let (low, high) = interval.ends();
+        format!(" (95 % interval {} to {})", thousands(low), thousands(high))
+    });
+    format!("{exact} years{ends}")
+}
+
+/// A number of two significant digits, with commas between its thousands.
+fn thousands(x: f64) -> String {
+    if !x.is_finite() {
+        return "open".to_owned();
+    }
+    let text = rounded(x, 2).to_string();
+    if !(1e3..1e15).contains(&x) {
+        return text;
+    }
+    let digits = text.len();
+    let comma = |(k, c)| match (digits - k) % 3 {
+        0 if k > 0 => format!(",{c}"),
+        _ => String::from(c),
+    };
+    text.chars().enumerate().map(comma).collect()
+}
+
 /// Mean return period of damage in years, with its interval.
 pub(crate) fn return_period(answer: &Answer) -> Option<String> {
-    Some(rounded_text(&answer.return_period_years()?, 2))
+    let found = answer.return_period_years()?;
+    Some(found.text("", thousands))
 }
 
 /// The probability of damage in T years in percent, with its interval.

@@ -17,6 +17,7 @@ use serde::Serialize;
 use super::measure::GroundArgs;
 use super::names;
 use super::shared::{JsonArg, positive};
+use super::show::number;
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::threads::with_threads;
@@ -148,6 +149,14 @@ impl FromStr for EdpLevels {
     }
 }
 
+/// A response in words.
+pub(super) fn demand(edp: f64) -> String {
+    match edp.is_finite() {
+        true => format!("|theta|/alpha = {edp}"),
+        false => "overturning".to_owned(),
+    }
+}
+
 /// EDP levels; `inf` is overturning.
 pub(super) fn edp_levels(text: &str) -> Result<EdpLevels, String> {
     let part = |field: &str| match field.trim() {
@@ -178,7 +187,14 @@ fn by_hand(
     curve: &ResponseCurve,
 ) -> Result<(), Failure> {
     let levels = crossings(curve, &args.levels.0, |im| im)?;
-    args.json.show(&CurveCrossings { im_r: curve.onset_im(), levels })
+    let reached = levels.iter().filter(|level| level.first.is_finite());
+    let sentence = format!(
+        "The curve reaches {} of {} levels.",
+        reached.count(),
+        levels.len()
+    );
+    let im_r = curve.onset_im();
+    args.json.show(&sentence, &CurveCrossings { im_r, levels })
 }
 
 /// Crossings of one curve.
@@ -250,7 +266,18 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
         levels,
         records,
     };
-    args.json.show_beside(&outputs, &found)
+    let sentence = found.levels.last().map_or(String::new(), |last| {
+        let (n, im, at) = (found.n, &found.im, demand(last.edp));
+        let median = match last.im50.is_finite() {
+            true => {
+                format!("{im} has a median of {}", number(last.im50, None))
+            }
+            false => format!("the median {im} is not reached"),
+        };
+        let reached = n - last.censored;
+        format!("At {at} {median}; {reached} of {n} records reach it.")
+    });
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 /// The curves of a table against a measure.

@@ -6,6 +6,7 @@ use rocking_procedures::compare;
 use rocking_procedures::comparison::{NamedSample, SampleSide};
 
 use super::shared::JsonArg;
+use super::show::{INTERVAL, estimate};
 use crate::failure::Failure;
 use crate::input;
 
@@ -53,5 +54,13 @@ pub fn run_compare(args: &CompareCommand) -> Result<(), Failure> {
         Some((SampleSide::B, place)) => b.error(place, error).into(),
         None => Failure::from(error),
     })?;
-    args.json.show(&found)
+    let centre = match &found.hodges_lehmann {
+        Ok(own) => format!("is centred at {}", estimate(&own.ratio, INTERVAL)),
+        Err(reason) => format!("has no centre: {reason}"),
+    };
+    let sentence = format!(
+        "The ratio a/b {centre}; {} of {} pairs have a ratio.",
+        found.usable, found.pairs.n
+    );
+    args.json.show(&sentence, &found)
 }

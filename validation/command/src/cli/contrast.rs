@@ -6,6 +6,7 @@ use rocking_procedures::contrast;
 use rocking_procedures::contrast::ContrastSample;
 
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::show::{INTERVAL, estimate};
 use crate::failure::Failure;
 use crate::input;
 
@@ -50,5 +51,12 @@ pub fn run_contrast(args: &ContrastCommand) -> Result<(), Failure> {
     let draws = args.bootstrap.draws();
     let (a, b) = (drawn(&of_a, 0), drawn(&of_b, 1));
     let found = args.threads.run(|| contrast(a, b, draws))??;
-    args.json.show(&found)
+    let sentence = match &found.median_ratio {
+        Ok(own) => format!(
+            "The median of a is {} times that of b.",
+            estimate(&own.estimate, INTERVAL)
+        ),
+        Err(reason) => format!("The medians have no ratio: {reason}."),
+    };
+    args.json.show(&sentence, &found)
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::shared::JsonArg;
+use super::show::json;
 use super::study::REPORT;
 use crate::failure::{Failure, ensure};
 use crate::terminal::{print, say};
@@ -55,7 +56,7 @@ pub fn run_diff(args: &DiffCommand) -> Result<(), Failure> {
         (ResultFiles::read(&args.old)?, ResultFiles::read(&args.new)?);
     let comparison = compare(&old, &new)?;
     if args.json.json {
-        args.json.show(&comparison)?;
+        print(&json(&comparison)?)?;
     } else if args.markdown {
         let text = comparison.text(false);
         print(&format!("## What changed\n\n```text\n{text}```\n"))?;

@@ -28,10 +28,10 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg, ThreadsArg, positive};
-use super::show::shown;
+use super::show::number;
 use super::way::WayArgs;
 use crate::failure::{Failure, ensure};
-use crate::terminal::{SOFTWARE, logged, print_beside, progress};
+use crate::terminal::{SOFTWARE, logged, progress};
 use rocking_common::files::{Output, Outputs};
 use rocking_common::suites::inputs::{BLOCK_SAMPLES, files, profiles, reread};
 use rocking_common::suites::remarks::Remarks;
@@ -199,11 +199,16 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     if let Some(out) = plot {
         out.write(svg(&work.curves.unwrap_or_default(), &analysis)?)?;
     }
-    let mut summary = work.summary;
-    let as_json = args.json.json && !outputs.take_standard_output();
-    if !as_json {
-        summary.curves.clear();
-    }
+    let summary = work.summary;
+    let median = summary.median_overturning_im.filter(|im| im.is_finite());
+    let median = median.map_or(String::new(), |im| {
+        let im = number(im, None);
+        format!("; the median PGA/(g tan alpha) at which it does is {im}")
+    });
+    let sentence = format!(
+        "The block overturns under {} of {} records{median}.",
+        summary.overturned_curves, summary.records
+    );
     let found = IdaReport {
         suite: suite.name(),
         earthquakes: earthquakes(&clusters(&chosen)),
@@ -216,7 +221,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
         summary,
         pivot: work.pivot,
     };
-    print_beside(&outputs, &shown(as_json, &found)?)
+    args.json.summarise(&outputs, &sentence, &found)
 }
 
 /// A suite that is worked off in blocks of records.

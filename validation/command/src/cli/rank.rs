@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rocking::capacity::InversionRule;
 use rocking_procedures::capacities::intervals;
-use rocking_procedures::ranking::Covariate;
+use rocking_procedures::ranking::{Covariate, MeasureRank};
 use rocking_procedures::{Ranking, rank};
 use rocking_records::SetAside;
 use rocking_records::intensity::{Intensity, IntensityMeasure as M};
@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::measure::{GroundArgs, SuiteMeasures};
 use super::names;
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
+use super::show::{INTERVAL, estimate};
 use crate::failure::Failure;
 use crate::input;
 use rocking_common::files::Outputs;
@@ -122,7 +123,19 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
     }
     let (edp, point) = (args.at, args.point.to_string());
     let found = RankSummary { edp, point, set_aside, ranking };
-    args.json.show_beside(&outputs, &found)
+    let beta = |one: &&MeasureRank| one.dispersion.estimate.value();
+    let all = found.ranking.measures.iter();
+    let best = all.min_by(|a, b| beta(a).total_cmp(&beta(b)));
+    let sentence = best.map_or(String::new(), |best| {
+        format!(
+            "{} predicts the {} capacities best: they have a dispersion of \
+             {}.",
+            best.im,
+            found.ranking.n,
+            estimate(&best.dispersion.estimate, INTERVAL)
+        )
+    });
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 impl RankCommand {

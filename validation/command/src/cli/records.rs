@@ -224,7 +224,13 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     {
         let rows = records.iter().map(|listed| listed.row(args.gravity));
         let set_aside = listing.set_aside.all().iter();
-        args.json.show(&RecordsSummary {
+        let aside = listing.set_aside.all().len();
+        let sentence = format!(
+            "Records: {}; files refused: {}, set aside: {aside}.",
+            records.len(),
+            listing.refused.len()
+        );
+        let found = RecordsSummary {
             gravity_m_s2: args.gravity,
             processing: done,
             suites: &listing.suites,
@@ -238,7 +244,8 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
                 })
                 .collect(),
             refused: &listing.refused,
-        })?;
+        };
+        args.json.show(&sentence, &found)?;
     }
     if !listing.refused.is_empty() {
         return Err(Failure::input(causes(&listing.refused)));

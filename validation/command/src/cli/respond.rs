@@ -6,8 +6,9 @@ use std::sync::{Mutex, PoisonError};
 use rocking::block::Block;
 use rocking::excitation::Excitation;
 use rocking::integrator::{
-    Arithmetic, CertifiedFate, Certify, Model, Observe, Overturning, Response,
-    Scene, WorkLimit, certify, respond, uplift_threshold,
+    Arithmetic, Assessment, CertifiedFate, Certify, Model, Observe, Outcome,
+    Overturning, Response, Scene, WorkLimit, certify, respond,
+    uplift_threshold,
 };
 use serde::Serialize;
 
@@ -15,9 +16,9 @@ use super::excitation::ExcitationArgs;
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg};
-use super::show::shown;
+use super::show::number;
 use crate::failure::Failure;
-use crate::terminal::{patiently, print_beside};
+use crate::terminal::patiently;
 use rocking_common::files::Outputs;
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::table::{Table, columns::HISTORY};
@@ -141,13 +142,8 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
     }
     let certified = || certified(&scene, args.until, work_limit);
     let certified = args.certify.then(certified).transpose()?;
-    // The history has its file; text has the number of impacts alone.
+    // The history has its file.
     response.history.clear();
-    let as_json = args.json.json && !outputs.take_standard_output();
-    if !as_json {
-        response.impacts.clear();
-        response.input_certificate = None;
-    }
     let outcome = response.outcome_name();
     let result = RespondSummary {
         response: NamedOutcome { outcome, found: response },
@@ -166,7 +162,38 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
             intensity_pga: pga_g / threshold,
         },
     };
-    print_beside(&outputs, &shown(as_json, &result)?)
+    args.json.summarise(&outputs, &sentence(&result), &result)
+}
+
+/// What becomes of the block.
+fn sentence(found: &RespondSummary<'_>) -> String {
+    let (run, alpha) = (&found.response.found, found.scene.alpha_rad);
+    let error = run.error_estimate;
+    let sentence = match run.outcome {
+        Outcome::NoUplift => "The block does not lift off.".to_owned(),
+        Outcome::Rocked { peak_ratio } => format!(
+            "The block rocks and does not overturn. Its peak rotation is {} \
+             rad ({} of alpha), at {} s.",
+            number(alpha * peak_ratio, error.map(|error| alpha * error)),
+            number(peak_ratio, error),
+            number(run.peak_time_s.unwrap_or(0.0), None)
+        ),
+        Outcome::Overturned { time_s, .. } => format!(
+            "The block overturns at {} s.",
+            number(time_s, run.overturning_error_s)
+        ),
+    };
+    match (run.assessment(), &found.certified) {
+        (Assessment::Clear, _) => sentence,
+        (_, Some(certified)) => format!(
+            "{sentence} That is in double precision; certified: {}.",
+            certified.outcome
+        ),
+        (_, None) => format!(
+            "{sentence} Rounding errors may have changed this result; \
+             --certify settles it."
+        ),
+    }
 }
 
 /// The certified fate; where it takes long, with a word on how far it is.

@@ -9,13 +9,14 @@ use rocking_procedures::fragility::hazard::{
 use rocking_procedures::{
     FitOptions, FragilityInput, ModelError, Shift, risk,
 };
-use rocking_statistics::{Lognormal, QuantileType};
+use rocking_statistics::{Estimate, Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::{FragilitySource, SourceArgs};
 use super::shared::{
     BootstrapArgs, JsonArg, ModelErrorArgs, PlotArg, ThreadsArg,
 };
+use super::show::number;
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::note;
@@ -168,7 +169,20 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     if let Some(out) = plot {
         out.write(svg(&hazard, &fragilities)?)?;
     }
-    args.json.show_beside(&outputs, &found)
+    let sentence = found.fragilities.first().map_or(String::new(), |first| {
+        let least = first.annual_frequency_truncation_lower;
+        let most = first.annual_frequency_truncation_upper;
+        let drawn = first.sampling.as_ref().map(|own| own.annual_frequency);
+        let often = drawn.unwrap_or(Estimate::exact(least));
+        let width =
+            often.high().unwrap_or(most) - often.low().unwrap_or(least);
+        format!(
+            "Damage is expected once in {} on average: {} a year.",
+            rocking_assessment::years(&often.map(f64::recip)),
+            number(least, Some(0.1 * width))
+        )
+    });
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 impl RiskCommand {

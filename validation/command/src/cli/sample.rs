@@ -6,6 +6,7 @@ use rocking_procedures::summarise;
 use rocking_statistics::QuantileType;
 
 use super::shared::JsonArg;
+use super::show::number;
 use crate::failure::Failure;
 use crate::input;
 
@@ -40,5 +41,11 @@ pub struct SampleCommand {
 pub fn run_sample(args: &SampleCommand) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
     let sample = input::sample(&args.sample)?.extended()?;
-    args.json.show(&summarise(&sample, &args.at, quantile_type)?)
+    let found = summarise(&sample, &args.at, quantile_type)?;
+    let median = found.boxplot.as_ref().map(|own| number(own.median, None));
+    let sentence = match median {
+        Ok(median) => format!("The median of {} values is {median}.", found.n),
+        Err(reason) => format!("{} values: {reason}.", found.n),
+    };
+    args.json.show(&sentence, &found)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rocking_common::files::Outputs;
 use rocking_report::scored::page;
-use rocking_score::{Answers, own_answers, score};
+use rocking_score::{Answers, CodeVerdict, own_answers, score};
 
 use super::shared::JsonArg;
 use crate::failure::Failure;
@@ -58,13 +58,19 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
     let Some(path) = &args.answers else { return Ok(()) };
     let out = outputs.open_some(args.out.as_ref())?;
     let answers = Answers::parse(&input::text(path)?, path)?;
-    let mut found = score(&answers);
+    let found = score(&answers);
     if let Some(out) = out {
         out.write(page(&found))?;
     }
-    // Every quantity is in the JSON and on the page.
-    if !args.json.json {
-        found.quantities.clear();
-    }
-    args.json.show(&found)
+    let verdict = match found.diagnosis.verdict {
+        CodeVerdict::None => "They are right within their scatter.",
+        CodeVerdict::Known => "A known mistake explains them.",
+        CodeVerdict::Unknown => "No known mistake explains them.",
+        CodeVerdict::TooFew => "They are too few for a diagnosis.",
+    };
+    let sentence = format!(
+        "The code gives {} of {} answers. {verdict}",
+        found.answered, found.asked
+    );
+    args.json.show(&sentence, &found)
 }

@@ -7,9 +7,9 @@ use rocking_procedures::Draws;
 use rocking_procedures::model_error::{ModelError, ModelErrorPart};
 use serde::Serialize;
 
-use super::show::shown;
+use super::show::{json, text};
 use crate::failure::Failure;
-use crate::terminal::print;
+use crate::terminal::{print, print_beside, say};
 use crate::threads::with_threads;
 
 /// The value of a flag that is positive and finite.
@@ -30,12 +30,17 @@ pub struct JsonArg {
 }
 
 impl JsonArg {
-    /// Prints a result.
+    /// Prints a result: as JSON, or behind a sentence.
     ///
     /// # Errors
-    /// As [`shown`] and [`print()`].
-    pub fn show<T: Serialize>(self, result: &T) -> Result<(), Failure> {
-        print(&shown(self.json, result)?)
+    /// As [`json`], [`text`] and [`print()`].
+    pub fn show<T: Serialize>(
+        self,
+        sentence: &str,
+        result: &T,
+    ) -> Result<(), Failure> {
+        let json = self.json.then(|| json(result));
+        print(&json.unwrap_or_else(|| text(sentence, result))?)
     }
 
     /// Prints a result, unless an output takes standard output.
@@ -45,9 +50,30 @@ impl JsonArg {
     pub fn show_beside<T: Serialize>(
         self,
         outputs: &Outputs,
+        sentence: &str,
         result: &T,
     ) -> Result<(), Failure> {
-        if outputs.take_standard_output() { Ok(()) } else { self.show(result) }
+        match outputs.take_standard_output() {
+            true => Ok(()),
+            false => self.show(sentence, result),
+        }
+    }
+
+    /// Prints a summary beside files: as text on standard error, if an output
+    /// takes standard output.
+    ///
+    /// # Errors
+    /// As [`JsonArg::show`].
+    pub fn summarise<T: Serialize>(
+        self,
+        outputs: &Outputs,
+        sentence: &str,
+        result: &T,
+    ) -> Result<(), Failure> {
+        match self.json && !outputs.take_standard_output() {
+            true => say(&json(result)?),
+            false => print_beside(outputs, &text(sentence, result)?),
+        }
     }
 }
 

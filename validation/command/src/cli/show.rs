@@ -1,13 +1,18 @@
-//! How a result is printed: as JSON by `serde`, or as text made of the same
-//! fields by one rule.
+//! How a result is printed: as JSON by `serde`, or for people, who read a
+//! sentence first, then the same quantities by the names and units of one
+//! vocabulary.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use indexmap::IndexMap;
+use rocking_statistics::Estimate;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 use crate::terminal::COMMIT;
 use rocking_common::table::columns::SCHEMA;
-use rocking_common::words::columns;
+use rocking_common::words::{capital, columns, rounded};
 
 /// What every JSON of a command carries.
 #[derive(Serialize)]
@@ -19,31 +24,38 @@ struct JsonEnvelope<'a, T> {
     result: &'a T,
 }
 
-/// A result as JSON or as text.
+/// A result as JSON.
 ///
 /// # Errors
-/// [`Failure`] where the result cannot be serialized.
-pub fn shown<T: Serialize>(json: bool, result: &T) -> Result<String, Failure> {
-    if !json {
-        return text(result);
-    }
+/// [`Failure`] if the result cannot be serialized.
+pub fn json<T: Serialize>(result: &T) -> Result<String, Failure> {
     let version = env!("CARGO_PKG_VERSION");
     let all = JsonEnvelope { schema: SCHEMA, version, commit: COMMIT, result };
     Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 
-/// A result as text: a row for each field, a table for each list of structs.
+/// A result for people: the sentence, a list of named quantities, and a table
+/// for each list of structs.
 ///
 /// # Errors
-/// [`Failure`] where the result cannot be serialized.
-pub fn text<T: Serialize>(result: &T) -> Result<String, Failure> {
-    let node: Node = serde_json::from_str(&serde_json::to_string(result)?)?;
-    let mut text = String::new();
-    match node {
-        Node::Struct(fields) => rows(&mut text, &fields, 0),
-        other => text = cell(&other) + "\n",
-    }
-    Ok(text)
+/// [`Failure`] if the result cannot be serialized.
+pub fn text<T: Serialize>(
+    sentence: &str,
+    result: &T,
+) -> Result<String, Failure> {
+    let fields: Fields =
+        serde_json::from_str(&serde_json::to_string(result)?)?;
+    let mut tables = Vec::new();
+    let list = cells("", "", &fields, &mut |path, name, all| {
+        tables.push(table(path, name, all));
+        Vec::new()
+    });
+    let row = |one: NamedCell| vec![one.name, one.cell + " " + one.unit];
+    let list: Vec<Vec<String>> = list.into_iter().map(row).collect();
+    let parts = [format!("{sentence}\n"), columns(&list, |_| false)];
+    let parts = parts.into_iter().chain(tables);
+    let parts: Vec<String> = parts.filter(|part| part.len() > 1).collect();
+    Ok(parts.join("\n"))
 }
 
 /// A serialized result whose fields keep their order.
@@ -62,6 +74,14 @@ enum Node {
 
 type Fields = IndexMap<String, Node>;
 
+/// Names of quantities by the end of their path; an empty one leaves the
+/// quantity to the JSON.
+static VOCABULARY: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    let lines = include_str!("vocabulary.txt").lines();
+    let entry = |line: &'static str| line.split_once('=');
+    lines.filter_map(entry).map(|(k, n)| (k.trim(), n.trim())).collect()
+});
+
 /// Units that end the name of a field, the longer ones first.
 const UNITS: [(&str, &str); 13] = [
     ("_rad_s", "rad/s"),
@@ -79,169 +99,228 @@ const UNITS: [(&str, &str); 13] = [
     ("_g", "g"),
 ];
 
-/// The name of a field in words, and its unit.
-fn heading(name: &str) -> String {
-    let with_unit =
-        |(end, unit): &(&str, _)| Some((name.strip_suffix(end)?, *unit));
-    match UNITS.iter().find_map(with_unit) {
-        Some((words, unit)) => format!("{} ({unit})", words.replace('_', " ")),
-        None => name.replace('_', " "),
-    }
+/// The name of a quantity, below that of the struct which holds it, and its
+/// unit; none if it is left to the JSON.
+fn heading(path: &str, outer: &str) -> Option<(String, &'static str)> {
+    let mut ends = path.match_indices('.').map(|(dot, _)| &path[dot + 1..]);
+    let known = ends.find_map(|end| VOCABULARY.get(end));
+    let key = path.rsplit('.').next().unwrap_or(path);
+    let unit = UNITS.iter().find(|(end, _)| key.ends_with(end));
+    let (end, unit) = unit.copied().unwrap_or_default();
+    let own = key.strip_suffix(end).unwrap_or(key).replace('_', " ");
+    let name = match (known, outer) {
+        (Some(name), _) => (*name).to_owned(),
+        (None, "") => capital(&own),
+        (None, outer) => format!("{outer}, {own}"),
+    };
+    (!name.is_empty()).then_some((name, unit))
 }
 
-/// Columns of the widest table; a wider one becomes a block of rows a line.
-const WIDEST: usize = 140;
+/// A quantity as it is shown.
+struct NamedCell {
+    name: String,
+    cell: String,
+    unit: &'static str,
+}
 
-/// One row a field; a struct is a block of rows, a list of structs a table.
-fn rows(text: &mut String, fields: &Fields, depth: usize) {
-    let indent = 2 * depth;
-    for (name, value) in fields {
-        let name = heading(name);
-        match value {
-            Node::Struct(inner) if interval(inner).is_none() => {
-                *text += &format!("{:indent$}{name}\n", "");
-                rows(text, inner, depth + 1);
-            }
-            Node::List(all) if all.is_empty() => {}
-            Node::List(all)
-                if matches!(all.first(), Some(Node::Struct(_))) =>
+/// Makes the quantities of a list of structs from its path, its name and the
+/// structs.
+type OfList<'a> = &'a mut dyn FnMut(&str, &str, &[Node]) -> Vec<NamedCell>;
+
+/// The quantities of a struct named `outer`.
+fn cells(
+    path: &str,
+    outer: &str,
+    fields: &Fields,
+    of_list: OfList<'_>,
+) -> Vec<NamedCell> {
+    let mut found = Vec::new();
+    for (key, value) in fields {
+        let path = format!("{path}.{key}");
+        let Some((name, unit)) = heading(&path, outer) else { continue };
+        match (value, cell(value)) {
+            (Node::List(all), _)
+                if matches!(all[..], [Node::Struct(_), ..]) =>
             {
-                *text += &format!("{:indent$}{name}\n", "");
-                let mut lines = String::new();
-                table(&mut lines, all, indent + 2);
-                if lines.lines().all(|line| line.chars().count() <= WIDEST) {
-                    *text += &lines;
-                    continue;
-                }
-                for one in all {
-                    let Node::Struct(fields) = one else { continue };
-                    rows(text, fields, depth + 1);
-                }
+                found.extend(of_list(&path, &name, all));
             }
-            _ => {
-                let width = 32_usize.saturating_sub(indent);
-                let name = format!("{name:<width$}");
-                let gap = if name.len() > width { "  " } else { "" };
-                let cell = cell(value);
-                *text += &format!("{:indent$}{name}{gap}{cell}\n", "");
+            (Node::Struct(fields), None) => {
+                found.extend(cells(&path, &name, fields, of_list));
             }
+            (_, Some(cell)) => found.push(NamedCell { name, cell, unit }),
+            (_, None) => {}
         }
     }
+    found
 }
 
-/// A head of the field names, and one line a struct.
-fn table(text: &mut String, all: &[Node], indent: usize) {
-    let mut lines = Vec::new();
+/// The quantities of a list in the line of a table: those of each struct
+/// behind its first field, which names it.
+fn listed(path: &str, name: &str, all: &[Node]) -> Vec<NamedCell> {
+    let mut found = Vec::new();
     for one in all {
         let Node::Struct(fields) = one else { continue };
-        let mut row = Vec::new();
-        flatten("", fields, &mut row);
-        if lines.is_empty() {
-            lines.push(row.iter().map(|(name, _)| name.clone()).collect());
+        let mut rest = fields.clone();
+        let first = rest.shift_remove_index(0);
+        let first = first.and_then(|(_, first)| cell(&first));
+        let first = first.unwrap_or_default();
+        let behind = |one: NamedCell| NamedCell {
+            name: format!("{name} {first}: {}", one.name),
+            ..one
+        };
+        let inner = cells(path, "", &rest, &mut listed).into_iter();
+        found.extend(inner.map(behind));
+    }
+    found
+}
+
+/// Stands in a table for what is not known.
+const NONE: &str = "-";
+
+/// A title, a head of the names, and one line a struct; columns of numbers
+/// end at one place.
+fn table(path: &str, title: &str, all: &[Node]) -> String {
+    let mut heads: IndexMap<String, usize> = IndexMap::new();
+    let mut lines: Vec<Vec<String>> = vec![Vec::new()];
+    for one in all {
+        let Node::Struct(fields) = one else { continue };
+        let mut line = Vec::new();
+        for NamedCell { name, cell, unit } in
+            cells(path, "", fields, &mut listed)
+        {
+            let unit = match unit {
+                "" => String::new(),
+                unit => format!(" ({unit})"),
+            };
+            let next = heads.len();
+            let place = *heads.entry(name + &unit).or_insert(next);
+            line.resize(heads.len(), NONE.to_owned());
+            line[place] = cell;
         }
-        lines.push(row.into_iter().map(|(_, cell)| cell).collect());
+        lines.push(line);
     }
-    let is_word = |cell: &String| {
-        cell.parse::<f64>().is_err() && cell != "none" && !cell.ends_with(']')
+    lines.iter_mut().for_each(|l| l.resize(heads.len(), NONE.to_owned()));
+    lines[0] = heads.into_keys().collect();
+    let is_number = |k: usize| {
+        let mut cells = lines.iter().skip(1).filter_map(|line| line.get(k));
+        cells.all(|cell| cell == NONE || cell.parse::<f64>().is_ok())
     };
-    let is_right = |column: usize| {
-        let body = lines.iter().skip(1);
-        !body.filter_map(|line: &Vec<_>| line.get(column)).any(is_word)
-    };
-    for line in columns(&lines, is_right).lines() {
-        *text += &format!("{:indent$}{line}\n", "");
-    }
+    format!("{title}:\n{}", columns(&lines, is_number))
 }
 
-/// The cells of a row, the fields of inner structs behind their own name.
-fn flatten(before: &str, fields: &Fields, into: &mut Vec<(String, String)>) {
-    for (name, value) in fields {
-        let name = format!("{before}{}", heading(name));
-        match value {
-            Node::Struct(inner) if interval(inner).is_none() => {
-                flatten(&format!("{name} "), inner, into);
-            }
-            // Each struct of a list behind its first field, which names it.
-            Node::List(all)
-                if matches!(all.first(), Some(Node::Struct(_))) =>
-            {
-                for one in all {
-                    let Node::Struct(inner) = one else { continue };
-                    let mut inner = inner.clone();
-                    let Some((_, first)) = inner.shift_remove_index(0) else {
-                        continue;
-                    };
-                    flatten(&format!("{} ", cell(&first)), &inner, into);
-                }
-            }
-            _ => into.push((name, cell(value))),
-        }
-    }
-}
-
-/// A value with the ends of its interval: a struct with `point` or `value`,
-/// `low` and `high`.
-fn interval(fields: &Fields) -> Option<String> {
-    let at = |name: &str| fields.get(name).map(cell);
-    let point = at("point").or_else(|| at("value"))?;
-    let (low, high) = (at("low")?, at("high")?);
-    Some(format!("{point} [{low}, {high}]"))
-}
-
-fn cell(value: &Node) -> String {
-    match value {
-        Node::None => "none".into(),
+/// A value in words; none of nothing and of a struct of several quantities.
+fn cell(value: &Node) -> Option<String> {
+    Some(match value {
+        Node::None => return None,
         Node::Flag(yes) => String::from(if *yes { "yes" } else { "no" }),
         Node::Count(n) => n.to_string(),
         Node::Whole(n) => n.to_string(),
         // A name with a line break stays in its row.
         Node::Text(text) => text.replace('\n', "\\u000a"),
-        Node::Number(x) => number(*x),
-        Node::List(all) => all.iter().map(cell).collect::<Vec<_>>().join(" "),
-        Node::Struct(fields) => interval(fields).unwrap_or_default(),
-    }
+        Node::Number(x) => number(*x, None),
+        Node::List(all) if all.is_empty() => return None,
+        Node::List(all) => {
+            let cells = all.iter().filter_map(cell);
+            cells.collect::<Vec<_>>().join(" ")
+        }
+        Node::Struct(fields) => {
+            let at = |name: &str| match fields.get(name)? {
+                Node::Number(x) => Some(*x),
+                Node::Count(n) => Some(*n as f64),
+                _ => None,
+            };
+            if let Some(Node::Text(reason)) = fields.get("reason") {
+                return Some(format!("none: {reason}"));
+            }
+            let point = at("point").or_else(|| at("value"))?;
+            fields.get("low")?;
+            interval(point, [at("low"), at("high")], "")
+        }
+    })
 }
 
-/// Six significant digits.
-fn number(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || (1e-4..1e6).contains(&size) {
-        let before = if x == 0.0 { 0.0 } else { libm::log10(size).floor() };
-        let places = (5.0 - before).clamp(0.0, 9.0) as usize;
-        let text = format!("{x:.places$}");
-        if places == 0 {
-            return text;
-        }
-        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+/// What the interval of an estimate is called in a sentence.
+pub const INTERVAL: &str = "95 % interval ";
+
+/// An estimate with its interval in brackets, if it has one, behind what the
+/// interval is called.
+pub fn estimate(found: &Estimate, called: &str) -> String {
+    interval(found.value(), [found.low(), found.high()], called)
+}
+
+/// A number with the ends of its interval: two digits of its width.
+fn interval(point: f64, ends: [Option<f64>; 2], called: &str) -> String {
+    let [low, high] = ends;
+    if low.or(high).is_none() {
+        return number(point, None);
     }
-    format!("{x:.5e}")
+    let error = low.zip(high).map(|(low, high)| 0.1 * (high - low));
+    let end = |x: Option<f64>| x.map_or("open".into(), |x| number(x, error));
+    let (point, [low, high]) = (number(point, error), ends.map(end));
+    format!("{point} ({called}{low} to {high})")
+}
+
+/// A number with six significant digits, fewer if its error is known: none
+/// below the first digit of the error.
+pub fn number(x: f64, error: Option<f64>) -> String {
+    let place = |x: f64| libm::log10(x.abs()).floor() as i32;
+    let first = if x == 0.0 { 0 } else { place(x) };
+    let last = error.filter(|error| *error > 0.0).map(place);
+    let digits = last.map_or(6, |last| first.saturating_sub(last) + 1);
+    let digits = digits.clamp(1, 6);
+    let x = rounded(x, digits as usize);
+    if x != 0.0 && !(1e-4..1e6).contains(&x.abs()) {
+        return if x.is_finite() { format!("{x:e}") } else { x.to_string() };
+    }
+    match last {
+        Some(_) => format!("{x:.0$}", (digits - 1 - first).max(0) as usize),
+        None => x.to_string(),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::text;
+    use super::*;
     use serde_json::json;
 
     #[test]
-    fn fields_are_rows_with_units_and_lists_are_tables() {
+    fn a_sentence_is_followed_by_named_quantities_and_tables() {
         let result = json!({
-            "a_rad": 0.15,
-            "beta": { "point": 0.4, "low": 0.3, "high": 0.5 },
+            "alpha_rad": 0.15,
+            "dispersion": { "point": 0.4, "low": 0.297, "high": 0.5 },
             "none": null,
+            "seed": 3,
             "rows": [
-                { "im": "pga", "median_g": 0.123_456_78 },
-                { "im": "sa:1", "median_g": 12_345_678.0 },
+                { "im": "pga", "new_g": 0.123_456_78, "left_out": null },
+                { "im": "sa:1", "new_g": 12_345_678.0, "left_out": 3 },
             ],
-            "sub": { "of": [{ "on": "M", "slope": 0.5 }], "used": 3 },
+            "mine": { "by": [{ "on": "M", "slope": 0.5 }], "used": 3 },
+            "other": { "reason": "too few" },
         });
-        let expected = "\
-            a (rad)                         0.15\n\
-            beta                            0.4 [0.3, 0.5]\n\
-            none                            none\n\
-            rows\n  im    median (g)\n  pga     0.123457\n  \
-            sa:1   1.23457e7\n\
-            sub\n  of\n    on  slope\n    M     0.5\n  \
-            used                          3\n";
-        assert_eq!(text(&result).unwrap(), expected);
+        let expected = "The block rocks.\n\n\
+            Slenderness alpha  0.15 rad\n\
+            Dispersion         0.40 (0.30 to 0.50)\n\
+            Mine, used         3\n\
+            Other              none: too few\n\n\
+            Mine, by:\nOn  Slope\nM     0.5\n\n\
+            Rows:\nIntensity measure    New (g)  Left out\n\
+            pga                 0.123457         -\n\
+            sa:1               1.23457e7         3\n";
+        assert_eq!(text("The block rocks.", &result).unwrap(), expected);
+    }
+
+    #[test]
+    fn digits_end_at_the_error() {
+        for (x, error, words) in [
+            (0.123_456_78, None, "0.123457"),
+            (12_345_678.0, None, "1.23457e7"),
+            (0.012_345, Some(2e-4), "0.0123"),
+            (1234.5, Some(100.0), "1200"),
+            (0.0, Some(0.01), "0.00"),
+            (3.0, Some(1e-12), "3.00000"),
+            (f64::INFINITY, None, "inf"),
+        ] {
+            assert_eq!(number(x, error), words, "{x}");
+        }
     }
 }

@@ -9,6 +9,7 @@ use rocking_records::{ReadOptions, SetAside};
 use serde::Serialize;
 
 use super::shared::JsonArg;
+use super::show::number;
 use crate::failure::Failure;
 use crate::terminal::progress;
 use rocking_common::curves::Execution;
@@ -116,7 +117,16 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     if let Some(out) = table {
         out.write(throughput::text(&many)?)?;
     }
-    args.json.show(&SpeedSummary {
+    let own = singles.iter().find(|one| one.key() == BASE);
+    let sentence = own.map_or(String::new(), |own| {
+        format!(
+            "One analysis takes {} s of processor time in the median, with a \
+             median error of {} of the peak.",
+            number(own.cpu_s, Some(0.01 * own.cpu_s)),
+            number(own.peak_error, Some(0.1 * own.peak_error))
+        )
+    });
+    let found = SpeedSummary {
         isa: Isa::best().name(),
         ratios_to: BASE.join(", "),
         set_aside,
@@ -124,7 +134,8 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         throughput: many.iter().map(rate).collect(),
         kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
-    })
+    };
+    args.json.show(&sentence, &found)
 }
 
 /// The records that are analysed, and what was set aside beside them.

@@ -87,7 +87,14 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
         out.write(outcomes(&table, &curves, &args.levels.0, edp)?)?;
     }
     let found = StripesSummary { n: curves.len(), edp: args.at, stripes };
-    args.json.show_beside(&outputs, &found)
+    let sentence = found.stripes.last().map_or(String::new(), |last| {
+        let (intensity, over, n) = (last.intensity, last.overturned, last.n);
+        let axis = args.im.row().words;
+        format!(
+            "At {axis} = {intensity} the block overturns under {over} of {n} records."
+        )
+    });
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 /// The table of what became of each record.

@@ -101,5 +101,6 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
     let files = files.into_iter().map(|(path, text)| (path, text.into()));
     folder.write(&files.collect(), &[&last])?;
-    say(&text(&shown)?)
+    let sentence = format!("The records are in {}.", args.out.display());
+    say(&text(&sentence, &shown)?)
 }

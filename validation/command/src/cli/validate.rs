@@ -17,9 +17,10 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::scene::{BlockArgs, Eta};
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg, positive};
+use super::show::json;
 use crate::failure::{Failure, bail};
 use crate::input;
-use crate::terminal::{SOFTWARE, note, say};
+use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE, shaking};
 use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::suites::inputs::visit;
@@ -111,7 +112,7 @@ fn in_threads(args: &ValidateCommand) -> Result<(), Failure> {
         folder.write(&files, &[PAGE, SUMS])?;
     }
     if args.json.json {
-        return args.json.show(&found);
+        return print(&json(&found)?);
     }
     if let Some(words) = remarks.words() {
         note(&format!("remarks on {words}"));

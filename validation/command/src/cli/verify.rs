@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::shared::JsonArg;
-use super::show::shown;
 use crate::failure::{AtPlace as _, Failure, ensure};
 use crate::input;
 use crate::terminal::say;
@@ -60,7 +59,9 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
         _ => None,
     };
     let outcomes = run_all(&cases);
-    say(&shown(args.json.json, &VerifySummary::of(&outcomes))?)?;
+    let found = VerifySummary::of(&outcomes);
+    let sentence = format!("{} of {} cases pass.", found.passed, found.of);
+    args.json.summarise(&Outputs::default(), &sentence, &found)?;
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(

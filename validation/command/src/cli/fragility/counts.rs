@@ -15,6 +15,7 @@ use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::Stripe;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
+use crate::cli::show::{INTERVAL, estimate};
 use crate::failure::{AtPlace as _, Failure};
 use crate::input;
 use rocking_common::files::Outputs;
@@ -73,7 +74,13 @@ pub(super) fn run_fragility_counts(
     if let Some(out) = plot {
         out.write(args.threads.run(|| counted.svg(&found, draws))??)?;
     }
-    args.json.show_beside(&outputs, &found)
+    let sentence = format!(
+        "The median is {}, the dispersion {}; {} outcomes.",
+        estimate(&found.median, INTERVAL),
+        estimate(&found.dispersion, ""),
+        found.n
+    );
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 /// What a table says of stripes.

@@ -101,7 +101,9 @@ pub(super) fn run_fragility_export(
             });
         }
     }
-    args.json.show_beside(&outputs, &ExportSummary { model_error, blocks })
+    let sentence = format!("The fragilities are in {}.", args.out.display());
+    let found = ExportSummary { model_error, blocks };
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 impl FragilityExportCommand {

@@ -9,14 +9,16 @@ use rocking_procedures::{
     capacities, fit_levels, fit_sample,
 };
 use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lognormal::FitMethod;
-use rocking_statistics::{CensoredSample, Lognormal, QuantileType};
+use rocking_statistics::{CensoredSample, Estimate, Lognormal, QuantileType};
 use serde::Serialize;
 
 use super::source::{self, DispersionArg, IdaArgs};
-use crate::cli::capacities::EdpLevels;
+use crate::cli::capacities::{EdpLevels, demand};
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
+use crate::cli::show::{INTERVAL, estimate};
 use crate::failure::{AtPlace as _, Failure, bail};
 use crate::input;
 use rocking_common::files::Outputs;
@@ -182,7 +184,10 @@ fn of_sample(
         table.write(csv(band))?;
     }
     let sample_of = file.of().map(str::to_owned);
-    args.json.show_beside(&outputs, &OfSample { sample_of, unit, fit })
+    let of = sample_of.as_ref().map(|of| format!("values of {of}"));
+    let sentence = sentence(of.as_deref().unwrap_or("values"), &fit);
+    let found = OfSample { sample_of, unit, fit };
+    args.json.show_beside(&outputs, &sentence, &found)
 }
 
 fn of_levels(
@@ -219,7 +224,31 @@ fn of_levels(
         out.write(args.threads.run(|| svg(drawn, &options, &unit))??)?;
     }
     let point = rule.to_string();
-    args.json.show_beside(&outputs, &OfLevels { unit, point, levels })
+    let sentence = levels.last().map_or(String::new(), |last| {
+        let values = format!("capacities at {}", demand(last.edp));
+        sentence(&values, &last.fit)
+    });
+    let found = OfLevels { unit, point, levels };
+    args.json.show_beside(&outputs, &sentence, &found)
+}
+
+/// Median and dispersion of a fit to these values.
+fn sentence(values: &str, fit: &FragilityFit) -> String {
+    let by = fit.bootstrap.as_ref();
+    let number = |x: f64, drawn: Option<&BootstrapEstimate>, called| {
+        let exact = Estimate::exact(x);
+        estimate(drawn.map_or(&exact, |drawn| &drawn.estimate), called)
+    };
+    let (law, drawn) = (&fit.fitted, by.and_then(|by| by.median.as_ref()));
+    let median = number(law.median(), drawn, INTERVAL);
+    let drawn = by.and_then(|by| by.dispersion.as_ref());
+    let beta = number(law.dispersion(), drawn, "");
+    format!(
+        "The fragility has a median of {median} and, above a shift of {}, a \
+         dispersion of {beta}. It is fitted to {} {values}.",
+        law.shift(),
+        fit.n
+    )
 }
 
 /// Fits to samples, by their names.

@@ -2,8 +2,10 @@
 
 use rocking_procedures::{ModelError, law_fragility};
 
+use crate::cli::capacities::demand;
 use crate::cli::scene::{BlockArgs, Eta};
 use crate::cli::shared::{JsonArg, ModelErrorArgs};
+use crate::cli::show::number;
 use crate::failure::Failure;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
@@ -36,5 +38,12 @@ pub(super) fn run_fragility_law(
     let block = args.block.block(STANDARD_GRAVITY_M_S2)?;
     let eta = args.eta.restitution(&block)?.velocity_ratio();
     let error = args.model_error.or(ModelError::default());
-    args.json.show(&law_fragility(&block, eta, args.at, error)?)
+    let found = law_fragility(&block, eta, args.at, error)?;
+    let sentence = format!(
+        "The median AvgSA at {} is {} g, the dispersion {}.",
+        demand(args.at),
+        number(found.total.median(), None),
+        number(found.total.dispersion(), None)
+    );
+    args.json.show(&sentence, &found)
 }

@@ -208,7 +208,7 @@ fn numbers_are_those_of_separate_commands() {
     let shown = format!("{:.2e}", median).parse::<f64>().unwrap().to_string();
     assert!(page.contains(&format!("{shown} (")), "no {shown}");
     assert_eq!(vase["friction_share"], 1.0, "tan(alpha) is above 0.2");
-    assert!(page.contains("They slide first."));
+    assert!(page.contains("They would slide before they rock"));
 }
 
 #[test]

@@ -96,11 +96,11 @@ pub(crate) fn responses(found: &Assessment) -> String {
     table.finish()
 }
 
-/// The fragilities of all objects in a format of another program; none where
-/// the format does not hold the intensity measure.
+/// The fragilities of all objects in a format of another program; none if the
+/// format does not have the intensity measure.
 ///
 /// # Errors
-/// A name that other programs do not take, and a block that is none.
+/// A name that other programs do not take, and an invalid block.
 pub(crate) fn exchanged(
     found: &Assessment,
     format: &ExchangeFormat,

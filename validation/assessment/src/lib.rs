@@ -25,11 +25,11 @@ use rocking_synthesis::SuiteKind;
 use serde::Deserialize;
 
 pub use data::json;
-pub use words::{text, years};
+pub use words::{once_in, text};
 
 use words::{answer_cells, answer_heads, measure, short};
 
-/// The page; it is written last, so that all files are there where it is.
+/// The page; it is written last, so if it exists, all files do.
 pub const PAGE: &str = "index.html";
 
 /// How many records are named that damage an object first.
@@ -42,12 +42,12 @@ const SLIDES: f64 = 0.05;
 pub const RECORDED_MOTIONS: &str =
     "Recorded motions (FEMA P-695): python -m rocking.recorded motions";
 
-/// What an assessment was made of.
+/// Origin of an assessment.
 #[derive(Clone, Debug, Default)]
 pub struct About {
-    /// Where the records come from, in a sentence.
+    /// Origin of the records, in a sentence.
     pub ground: String,
-    /// What a reader needs to make the page again: names and values.
+    /// Names and values that are needed to make the page again.
     pub provenance: Vec<(String, String)>,
 }
 
@@ -82,7 +82,7 @@ struct ComparedRow {
 /// curve, or in PGA without one; none in a measure that was not compared.
 ///
 /// # Errors
-/// Where the comparison cannot be read.
+/// If the comparison cannot be read.
 pub fn recorded_ratios(hazard: Option<&Hazard>) -> anyhow::Result<Vec<f64>> {
     let im = hazard.map_or(Some("pga".into()), |own| own.im.name());
     let mut ratios = Vec::new();
@@ -137,10 +137,10 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
     let ranked = found.objects.iter().map(|one| words::ranked(found, one));
     let ranked: Vec<Vec<String>> = ranked.collect();
     let introduction = html! {
-        "Each object is taken for a rigid block that stands free. It begins \
-         to rock where the ground accelerates by g tan(alpha) or more, alpha \
-         being the angle whose tangent is width over height. It overturns \
-         where it rocks too far. " (about.ground)
+        "Each object is modelled as a free-standing rigid block. It begins \
+         to rock when the ground accelerates by g tan(alpha) or more; the \
+         tangent of the angle alpha is width over height. It overturns if it \
+         rotates too far. " (about.ground)
     };
     let sections = html! {
         section {
@@ -206,7 +206,7 @@ fn table(label: &str, heads: &[String], rows: &[Vec<String>]) -> Markup {
     scrolled(label, body)
 }
 
-/// What friction makes of the answers.
+/// Effect of friction on the answers.
 fn sliding(found: &Assessment) -> Markup {
     let ids = |of: &dyn Fn(&ObjectAssessment) -> bool| {
         let all = found.objects.iter().filter(|one| of(one));
@@ -221,14 +221,14 @@ fn sliding(found: &Assessment) -> Markup {
                 strong { "Sliding. " }
                 "Under more than 5 % of the records these objects need more \
                  friction than their floor gives, before damage: " (slide)
-                ". They slide first. Their fragility does not apply."
+                ". They would slide before they rock, so the rocking results \
+                 do not apply to them."
             }
         }
         @if !unknown.is_empty() {
             p {
                 "No coefficient of friction is given for " (unknown)
-                ". Whether these objects slide before they rock was not \
-                 checked."
+                ". Whether they slide before they rock was not checked."
             }
         }
     }
@@ -247,9 +247,9 @@ fn together(found: &Assessment) -> Markup {
         section {
             h2 { "Together" }
             p {
-                "One earthquake moves all objects. The objects that each \
-                 record damages are counted. They are not taken as \
-                 independent."
+                "One earthquake moves all objects. For each record the \
+                 damaged objects are counted together; the objects are not \
+                 treated as independent."
                 @if let Some(r) = &found.correlation {
                     " Over the records, the logarithms of the intensities \
                      that damage two objects have a correlation of "
@@ -315,14 +315,14 @@ fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
                     }
                 }
             }
-            h3 { "What moves the answer" }
+            h3 { "What changes the answer" }
             (table("Answers under other assumptions", &heads, &rows))
             (remarks(found, one))
         }
     }
 }
 
-/// What else an engineer wants to know of an object.
+/// Further facts about an object.
 fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
     let (im, unit) = (measure(found), found.unit);
     let damaging = one.by_record.iter().filter(|r| r.damages).take(NAMED);
@@ -335,7 +335,7 @@ fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
                 li {
                     "Intensity measure: of " (one.ranking.measures.len())
                     " measures, " (best)
-                    " predicts the damage best. It leaves a dispersion of "
+                    " predicts the damage best, with a dispersion of "
                     (short(beta)) "."
                     @for pga in one.ranking.measures.iter().take(1) {
                         @let beta = pga.dispersion.estimate.value();
@@ -374,9 +374,10 @@ fn remarks(found: &Assessment, one: &ObjectAssessment) -> Markup {
                 li {
                     "In " (one.resolution.unresolved) " of "
                     (one.resolution.analyses) " analyses double precision \
-                     may not decide whether the object overturns. With \
-                     --certify these are run again in the arithmetic that \
-                     decides."
+                                               may not decide whether the \
+                                               object overturns. With \
+                                               --certify they are repeated \
+                                               in sufficient precision."
                 }
             }
         }
@@ -387,7 +388,7 @@ fn limits(found: &Assessment) -> Markup {
     let objects = &found.objects;
     html! {
         section {
-            h2 { "What is not in these numbers" }
+            h2 { "What these numbers leave out" }
             ul {
                 li {
                     "Sliding, jumping, twisting, soft or uneven ground, \
@@ -404,8 +405,8 @@ fn limits(found: &Assessment) -> Markup {
                 }
                 @if objects.iter().any(|one| one.floor.is_some()) {
                     li {
-                        "The building but for one linear mode: its other \
-                         modes, its damage, and the weight of the object."
+                        "The other modes of the building, its damage, and \
+                         the weight of the object."
                     }
                 }
                 li {
@@ -423,26 +424,26 @@ fn limits(found: &Assessment) -> Markup {
                          another object may differ. "
                     }
                     @if found.model_error == ModelError::default() {
-                        "The range of the bias also holds a coefficient of \
+                        "The range of the bias also covers a coefficient of \
                          restitution from 0.85 to 0.97. "
                     } @else {
-                        "The intervals take the coefficient of restitution \
+                        "The intervals treat the coefficient of restitution \
                          as known. "
                     }
-                    "The tables show what 0.85 and 0.97 make of the answer."
+                    "The tables show the answers for 0.85 and 0.97."
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {
                         "Motions beyond the last point of the hazard curve. \
-                         They count with the probability of damage that \
-                         this last point has; the upper end of a frequency \
-                         counts each of them as damage."
+                         They are given the probability of damage at that \
+                         point; for the upper end of a frequency each of \
+                         them causes damage."
                     }
                 }
                 @if objects.iter().any(|o| o.damage != Damage::Overturning) {
                     li {
-                        "Where a rotation is the limit: what the object \
-                         suffers from impacts below it."
+                        "If a rotation is the limit: damage from impacts at \
+                         smaller rotations."
                     }
                 }
             }

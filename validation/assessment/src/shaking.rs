@@ -108,24 +108,24 @@ fn figure(chart: Chart, number: u8, words: &str) -> Markup {
 
 fn fates(found: &TestComparison) -> Markup {
     let words = format!(
-        "The predicted probability of each test is of a fit that leaves its \
-         motion out. Marks are tenths of the tests in ascending order of \
+        "The predicted probability of each test comes from a fit that leaves \
+         its motion out. Marks are tenths of the tests in ascending order of \
          this probability, with {} % intervals. Below the line the \
          prediction is too high, above it too low.",
         100.0 * found.level
     );
     html! {
         section {
-            h2 { "Fates" }
+            h2 { "Outcomes" }
             @if let Some(line) = words::rivals(found) { p { (line) } }
             (table(
                 "The block and intensity measures as predictors",
                 &words::predictors(found)
             ))
             p {
-                "The block decides by its first overturning: it overturns \
-                 in a test whose level is at or above it. A measure \
-                 overturns where its predicted probability is above 0.5."
+                "The block is judged by its first overturning: it overturns \
+                 in a test at or above that level. A measure predicts \
+                 overturning if its probability is above 0.5."
                 @if let Some(line) = words::resurrected(found) {
                     " " (line)
                 }
@@ -153,9 +153,9 @@ fn fragility(found: &TestComparison) -> Markup {
                 charts::fragilities(found),
                 2,
                 "Both curves are fitted in the same way to the same tests: \
-                 one to the fates that were measured, one to those that the \
-                 block has. Marks are shares of overturning in ten classes \
-                 of equal numbers of tests."
+                 one to the measured outcomes, one to those of the block. \
+                 Marks are shares of overturning in ten classes of equal \
+                 numbers of tests."
             ))
             h3 { "Onset of rocking" }
             p { (words::below(found)) }
@@ -164,9 +164,9 @@ fn fragility(found: &TestComparison) -> Markup {
                 &words::onsets(found)
             ))
             p {
-                "The first two are of the " (found.onset.tests)
-                " tests above the onset, the last two of all tests. The \
-                 larger one of each pair fits these fates better."
+                "The first two are for the " (found.onset.tests)
+                " tests above the onset, the last two for all tests. The \
+                 larger one of each pair fits these outcomes better."
             }
         }
     }
@@ -185,7 +185,8 @@ fn each(found: &TestComparison) -> Markup {
     });
     let words = format!(
         "{lines} The block overturns in the tests above the line at 1. A \
-         filled mark below it and an open mark above it are wrong fates.{by}"
+         filled mark below it and an open mark above it are wrong \
+         predictions.{by}"
     );
     html! {
         section {
@@ -217,9 +218,9 @@ fn limits(found: &TestComparison) -> Markup {
             h2 { "Limits" }
             ul {
                 li {
-                    "These numbers are of this specimen, this table and \
-                     these motions. They do not carry over to another \
-                     object by themselves."
+                    "These numbers are for this specimen, this table and \
+                     these motions. By themselves they do not apply to \
+                     another object."
                 }
                 li {
                     "The model is one rigid block in a plane (" (equation)
@@ -229,14 +230,14 @@ fn limits(found: &TestComparison) -> Markup {
                      or uneven base."
                 }
                 li {
-                    "The dispersion holds the faults of the model and the \
-                     scatter of the tests alike."
+                    "The dispersion contains both the faults of the model \
+                     and the scatter of the tests."
                 }
                 @if found.alpha_is_fitted {
                     li {
-                        "The slenderness was fitted to the fates. Shares and \
-                         dispersions of a block that was measured beforehand \
-                         would not be better."
+                        "The slenderness was fitted to the outcomes. Shares \
+                         and dispersions of a block that was measured \
+                         beforehand would not be better."
                     }
                 }
             }

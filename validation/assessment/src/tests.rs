@@ -145,10 +145,12 @@ fn the_return_period_that_comes_first_has_its_ends_in_order() {
     let found = assessed(None);
     let first = text(&found);
     let (_, rest) = first.split_once("once in ").unwrap();
-    let (own, rest) = rest.split_once(" (").unwrap();
+    let (own, rest) =
+        rest.split_once(" years on average (95 % interval ").unwrap();
     let (low, rest) = rest.split_once(" to ").unwrap();
-    let (high, _) = rest.split_once(") years").unwrap();
-    let shown = [low, own, high].map(|years| years.parse::<f64>().unwrap());
+    let (high, _) = rest.split_once(')').unwrap();
+    let number = |years: &str| years.replace(',', "").parse::<f64>();
+    let shown = [low, own, high].map(|years| number(years).unwrap());
     let frequency = found.objects[0].answer.annual_frequency().unwrap();
     let ends = [frequency.high().unwrap(), frequency.value()];
     let [shortest, own] = ends.map(f64::recip);

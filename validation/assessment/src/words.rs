@@ -6,7 +6,7 @@ use rocking_procedures::assess::{
     Answer, Assessment, Damage, ObjectAssessment,
 };
 use rocking_records::intensity::IntensityMeasure;
-use rocking_statistics::Estimate;
+use rocking_statistics::{Estimate, Interval};
 
 /// A number in three significant digits.
 pub(crate) fn short(x: f64) -> String {
@@ -26,39 +26,34 @@ pub(crate) fn three_digits(estimate: &Estimate) -> String {
     rounded_text(estimate, 3)
 }
 
-/// A number of years with its interval, in two significant digits: `740 years
-/// (95 % interval 330 to 1,700)`.
+/// A return period in years with its interval, in two significant digits:
+/// `once in 740 years on average (95 % interval 330 to 1,700)`.
 #[must_use]
-pub fn years(estimate: &Estimate) -> String {
-    let exact = thousands(estimate.value());
-    let ends = estimate.interval().map_or(String::new(), |interval| {
-        let (low, high) = interval.ends();
+pub fn once_in(years: &Estimate) -> String {
+    let ends = years.interval().map(Interval::ends);
+    let ends = ends.map_or(String::new(), |(low, high)| {
         format!(" (95 % interval {} to {})", thousands(low), thousands(high))
     });
-    format!("{exact} years{ends}")
+    format!("once in {} years on average{ends}", thousands(years.value()))
 }
 
 /// A number of two significant digits, with commas between its thousands.
 fn thousands(x: f64) -> String {
-    if !x.is_finite() {
-        return "open".to_owned();
-    }
-    let text = rounded(x, 2).to_string();
-    if !(1e3..1e15).contains(&x) {
-        return text;
-    }
-    let digits = text.len();
-    let comma = |(k, c)| match (digits - k) % 3 {
-        0 if k > 0 => format!(",{c}"),
-        _ => String::from(c),
+    let digits = match x.is_finite() {
+        true => rounded(x, 2).to_string(),
+        false => return "open".to_owned(),
     };
-    text.chars().enumerate().map(comma).collect()
+    let whole = digits.find('.').unwrap_or(digits.len());
+    let comma = |(k, c)| match k > 0 && k < whole && (whole - k) % 3 == 0 {
+        true => format!(",{c}"),
+        false => String::from(c),
+    };
+    digits.chars().enumerate().map(comma).collect()
 }
 
 /// Mean return period of damage in years, with its interval.
 pub(crate) fn return_period(answer: &Answer) -> Option<String> {
-    let found = answer.return_period_years()?;
-    Some(found.text("", thousands))
+    Some(answer.return_period_years()?.text("", thousands))
 }
 
 /// The probability of damage in T years in percent, with its interval.
@@ -82,7 +77,7 @@ pub(crate) fn symbol(im: &IntensityMeasure) -> String {
     }
 }
 
-/// What counts as damage, as a noun.
+/// The damage, as a noun.
 pub(crate) fn damage(one: &ObjectAssessment) -> String {
     match one.damage {
         Damage::Overturning => "overturning".to_owned(),
@@ -96,10 +91,8 @@ pub(crate) fn damage(one: &ObjectAssessment) -> String {
 pub(crate) fn first(found: &Assessment) -> String {
     let Some(one) = found.objects.first() else { return String::new() };
     let (id, what) = (&one.id, damage(one));
-    let often = match return_period(&one.answer) {
-        Some(years) => {
-            format!("{what} is to be expected once in {years} years")
-        }
+    let often = match one.answer.return_period_years() {
+        Some(often) => format!("{what} is expected {}", once_in(&often)),
         None => format!(
             "a {} of {} {} causes {what} with a probability of 5 %",
             measure(found),
@@ -107,8 +100,7 @@ pub(crate) fn first(found: &Assessment) -> String {
             found.unit
         ),
     };
-    let mut interval =
-        format!("The brackets hold the 95 % interval {}.", held(found));
+    let mut interval = format!("The 95 % interval comes {}.", held(found));
     if let Some(remark) = found.basis.remark {
         interval += &format!(" Note: {remark}.");
     }
@@ -122,18 +114,18 @@ pub(crate) fn first(found: &Assessment) -> String {
     )
 }
 
-/// Where the intervals come from.
+/// Origin of the intervals.
 pub(crate) fn held(found: &Assessment) -> String {
     let error = found.model_error;
     if error.is_none() {
-        return "from the choice of the records alone".into();
+        return "from the choice of the records".into();
     }
     format!(
         "from the choice of the records and the error of the model: {error}"
     )
 }
 
-/// What recorded motions change, in words.
+/// Effect of recorded motions, in words.
 pub(crate) fn recorded(found: &Assessment) -> Option<String> {
     let own = found.recorded_motions?;
     let mut words = format!(
@@ -180,7 +172,7 @@ pub(crate) fn answer_heads(
     heads
 }
 
-/// What a fragility says, cell by cell.
+/// Numbers of a fragility, cell by cell.
 pub(crate) fn answer_cells(answer: &Answer) -> Vec<String> {
     let risk = return_period(answer).into_iter().chain(in_years(answer));
     let ims =
@@ -205,8 +197,9 @@ pub(crate) fn ranked(
     cells
 }
 
-/// What the terminal shows: the first sentence, the table, and what recorded
-/// motions change.
+/// The text for the terminal: the first sentence, the table, and the effect of
+/// recorded motions.
+#[must_use]
 pub fn text(found: &Assessment) -> String {
     let mut text = first(found) + "\n\n";
     for (k, head) in heads(found).iter().enumerate() {

@@ -1,7 +1,6 @@
-//! A command that did not do what it was asked.
+//! A command that failed.
 
-/// A command that did not do what it was asked: what is printed, and the
-/// exit status.
+/// A command that failed: its message and the exit status.
 #[derive(Debug)]
 pub struct Failure {
     /// One message for people, on standard error.
@@ -54,12 +53,12 @@ macro_rules! ensure {
 
 pub(crate) use {bail, ensure};
 
-/// Names the file or the flag of a refusal.
+/// Adds the file or the flag to a refusal.
 pub trait AtPlace<T> {
     /// Puts the file or the flag before the message.
     ///
     /// # Errors
-    /// [`Failure`] where there was one.
+    /// [`Failure`] if there was one.
     fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
 }
 

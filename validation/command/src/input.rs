@@ -20,7 +20,7 @@ fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
     let given = path.starts_with("/dev/fd") || path.starts_with("/proc");
     if !(found.is_file() || given) {
         return Err(io::Error::other(
-            "it is no file: expected one, or - for standard input",
+            "not a file: expected one, or - for standard input",
         ));
     }
     Ok(Box::new(File::open(path)?))
@@ -29,7 +29,7 @@ fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
 /// Opens a file.
 ///
 /// # Errors
-/// [`Failure`] where it cannot be opened, and for a device that may never end.
+/// [`Failure`] if it cannot be opened, and for a device that may never end.
 pub fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     opened(path).at(format_args!("cannot read {}", path.display()))
 }
@@ -37,7 +37,7 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
 /// The text of a file.
 ///
 /// # Errors
-/// [`Failure`] where it cannot be read.
+/// [`Failure`] if it cannot be read.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let read = opened(path).and_then(io::read_to_string);
     read.at(format_args!("cannot read {}", path.display()))
@@ -64,8 +64,8 @@ pub fn sample(path: &Path) -> Result<SampleFile, Failure> {
     Ok(SampleFile::parse(&text(path)?, path)?)
 }
 
-/// Says that a procedure takes records as independent, where earthquakes of
-/// the file have several.
+/// Notes that a procedure takes records as independent, if earthquakes of the
+/// file have several.
 pub fn records_as_unit(file: &SampleFile) {
     let clusters = file.clusters();
     if !clusters.is_singletons() {

@@ -1,4 +1,4 @@
-//! What a command says: its result on standard output, notes and progress on
+//! Output of a command: its result on standard output, notes and progress on
 //! standard error.
 
 use std::io::{self, IsTerminal as _, Write as _};
@@ -27,7 +27,7 @@ pub const COMMIT: &str = env!("ROCKING_COMMIT");
 ///
 /// # Errors
 /// [`Failure`] when standard output cannot be written for another reason, and
-/// where it is closed.
+/// if it is closed.
 pub fn print(text: &str) -> Result<(), Failure> {
     write(standard_output(), text)
 }
@@ -41,7 +41,7 @@ pub fn say(text: &str) -> Result<(), Failure> {
     write(Ok(io::stdout()), text)
 }
 
-/// Prints a summary beside files: on standard error, where an output takes
+/// Prints a summary beside files: on standard error if an output takes
 /// standard output.
 ///
 /// # Errors
@@ -86,8 +86,8 @@ pub fn progress(length: u64) -> indicatif::ProgressBar {
 /// Interval of progress in a log.
 const LOG_INTERVAL: Duration = Duration::from_secs(30);
 
-/// Does `work`, and where there is no terminal to draw `bar` on, says on
-/// standard error every half a minute how far it is.
+/// Does `work`. Without a terminal for `bar`, notes its progress on standard
+/// error every half minute.
 pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     if io::stderr().is_terminal() {
         return work();
@@ -105,8 +105,8 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// Interval at which it says so on a terminal.
 const TERMINAL_INTERVAL: Duration = Duration::from_millis(200);
 
-/// Does `work`, and from two seconds on says on standard error how far it
-/// is: on a terminal in a line that changes, elsewhere every half a minute.
+/// Does `work`. After two seconds its progress appears on standard error: on a
+/// terminal in one changing line, elsewhere every half minute.
 pub fn patiently<T>(
     words: &(dyn Fn() -> String + Sync),
     work: impl FnOnce() -> T,
@@ -122,8 +122,8 @@ pub fn patiently<T>(
     result
 }
 
-/// Does `work`, and says something after a first time and then at intervals
-/// until it is done. Where no thread can be started, nothing is said.
+/// Does `work`, and calls `say` after a first time and then at intervals until
+/// it is done. Without a thread to spare, nothing is said.
 fn saying<T>(
     [first, interval]: [Duration; 2],
     say: &(dyn Fn() + Sync),

@@ -21,7 +21,7 @@ const STOPPING: &[i32] = &[
     SIGTERM,
 ];
 
-/// What signals do, from the first long work on.
+/// Effect of signals, from the first long work on.
 static SIGNALS: LazyLock<Signals> = LazyLock::new(Signals::handled);
 
 struct Signals {
@@ -40,7 +40,7 @@ impl Signals {
         let stopped = Arc::new(AtomicBool::new(false));
         let idle = Arc::new(AtomicBool::new(true));
         for &signal in STOPPING.iter().filter(|s| !is_ignored(**s)) {
-            // Where no handler can be set, it does what it does by default.
+            // If no handler can be set, the signal keeps its default effect.
             let _ = register_conditional_default(signal, Arc::clone(&idle))
                 .and_then(|_| register(signal, Arc::clone(&stopped)));
         }
@@ -69,7 +69,7 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// Runs `work` on `threads` threads (default: all processors), until SIGINT,
-/// SIGTERM or SIGHUP stops it, with a note where [`Stop::run`] starts fewer.
+/// SIGTERM or SIGHUP stops it, with a note if [`Stop::run`] starts fewer.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, for threads that cannot be started, and for
@@ -82,7 +82,7 @@ pub fn with_threads<T: Send>(
     done.ok_or_else(|| Failure::gate("stopped by a signal"))
 }
 
-/// As [`with_threads`]; none where the work was stopped.
+/// As [`with_threads`]; `None` if the work was stopped.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, or threads that cannot be started.

@@ -135,8 +135,8 @@ pub(super) fn velocity(found: &TestComparison) -> Option<usize> {
     found.distributions.iter().position(|one| one.im == "pgv")
 }
 
-/// Level of each test over its computed capacity, by PGV/PGA, or by PGA if
-/// PGV is no measure of the comparison.
+/// Level of each test over its computed capacity, by PGV/PGA, or by PGA if PGV
+/// is not among the measures.
 pub(super) fn levels(found: &TestComparison) -> Chart {
     let velocity = velocity(found);
     let label = velocity.map_or("PGA (g)", |_| "PGV / PGA (s)");
@@ -166,7 +166,7 @@ pub(super) fn levels(found: &TestComparison) -> Chart {
         let dashed = Pen::new(Ink::Muted, 1.2).dash(Dash::Dashed);
         lines.push(("measured", found.computed.median.value(), dashed));
     }
-    // Words at the edge stand above earlier ones.
+    // Words at the edge are placed above earlier ones.
     lines.sort_by(|a, b| a.1.total_cmp(&b.1));
     for (words, y, pen) in lines {
         series.push(Series::note(Mark::Across(pen), "", (f64::NAN, y)));

@@ -91,30 +91,30 @@ fn sentences_follow_the_intervals() {
             |found| found.computed.median = Estimate::exact(0.8),
             "without an interval",
         ),
-        (|found| found.alpha_is_fitted = true, "say nothing of a bias"),
+        (|found| found.alpha_is_fitted = true, "do not show a bias"),
         (|_| (), "leaves out a dispersion"),
         (
             |found| {
                 let own = &mut found.distributions[0];
                 own.dispersion_difference = estimate(0.08, -0.02, 0.13);
             },
-            "difference holds 0",
+            "difference contains 0",
         ),
         (
             |found| {
                 let own = &mut found.distributions[0];
                 own.dispersion_difference = estimate(-0.1, -0.2, -0.01);
             },
-            "is the wider one",
+            "one is wider",
         ),
         (
             |found| found.rivals[0].log_score = estimate(0.2, 0.1, 0.3),
-            "PGA alone predicts",
+            "PGA by itself predicts",
         ),
-        (|_| (), "than each intensity"),
+        (|_| (), "than any single intensity"),
         (
             |found| found.resurrected.tests = 5,
-            "In 5 of the tests the block stands",
+            "In 5 of the tests the block survives",
         ),
         (
             |found| {
@@ -157,7 +157,7 @@ fn a_page_has_three_drawings_and_the_numbers_of_its_files() {
     let of = |name: &str| String::from_utf8(files[name].clone()).unwrap();
     let page = of("index.html");
     assert_eq!(page.matches("<svg").count(), 3);
-    assert!(page.contains("80 % (70 to 90) of the fates of 100"));
+    assert!(page.contains("80 % (70 to 90) of the outcomes of 100"));
     assert!(page.contains("href=\"tests.csv\""));
     let kept: Value = serde_json::from_str(&of("tests.json")).unwrap();
     assert_eq!(kept["provenance"][0]["is"], "t.csv");

@@ -1,5 +1,5 @@
-//! A comparison with shaking-table tests in words. Each sentence is chosen
-//! by a rule on the numbers, and speaks of these tests alone.
+//! A comparison with shaking-table tests in words. Each sentence is chosen by
+//! a rule on the numbers, and is about these tests only.
 
 use std::cmp::Ordering;
 
@@ -12,7 +12,7 @@ use rocking_statistics::Estimate;
 
 use crate::words::{short, symbol, three_digits};
 
-/// What the block is called among predictors.
+/// Name of the block among predictors.
 const BLOCK: &str = "the block";
 
 /// An intensity measure without its unit, by its name.
@@ -31,8 +31,8 @@ fn level(found: &TestComparison) -> String {
     format!("{} %", rounded(100.0 * found.level, 3))
 }
 
-/// Where an interval lies beside a number: below it, about it or above it;
-/// none without an interval.
+/// Position of an interval relative to a number: below, around or above it;
+/// `None` without an interval.
 fn beside(estimate: &Estimate, x: f64) -> Option<Ordering> {
     let place = |(low, high): (f64, f64)| match () {
         () if high < x => Ordering::Less,
@@ -57,9 +57,9 @@ pub(super) fn block(found: &TestComparison) -> String {
 /// The bias of the capacities.
 fn bias(found: &TestComparison) -> String {
     if found.alpha_is_fitted {
-        return "Its slenderness was fitted to the same fates, so that \
-                measured over computed capacity has a median of 1: these \
-                tests say nothing of a bias."
+        return "Its slenderness was fitted to the same outcomes, so the \
+                median of measured over computed capacity is 1: these tests \
+                do not show a bias."
             .to_owned();
     }
     let ratio = &found.computed.median;
@@ -85,15 +85,15 @@ fn bias(found: &TestComparison) -> String {
 pub(super) fn left_out(one: &DistributionComparison) -> String {
     let missing = three_digits(&one.missing_dispersion);
     let missing = format!(
-        ": the model leaves out a dispersion of {missing}, which adds by \
+        ": the model leaves out a dispersion of {missing}, to be added by \
          squares."
     );
     let verdict = match beside(&one.dispersion_difference, 0.0) {
         Some(Ordering::Greater) => &missing,
-        Some(Ordering::Less) => ": the computed one is the wider one.",
+        Some(Ordering::Less) => ": the computed one is wider.",
         Some(Ordering::Equal) => {
-            ": the interval of their difference holds 0, so that these \
-             tests do not show that the model leaves out dispersion."
+            ": the interval of their difference contains 0, so these tests \
+             do not show that the model leaves out dispersion."
         }
         None => "; there is no interval.",
     };
@@ -120,7 +120,7 @@ fn widths(found: &TestComparison) -> String {
     let mut parts = Vec::new();
     for (place, words) in [
         (Some(Ordering::Greater), "larger"),
-        (Some(Ordering::Equal), "no difference is shown"),
+        (Some(Ordering::Equal), "no difference shown"),
         (Some(Ordering::Less), "smaller"),
         (None, "without an interval"),
     ] {
@@ -145,9 +145,9 @@ fn widths(found: &TestComparison) -> String {
 /// what the model leaves out.
 pub(super) fn first(found: &TestComparison) -> String {
     format!(
-        "A rigid block gets {} of the fates of {} shaking-table tests right. \
-         {} What the model leaves out scatters the capacity by a dispersion \
-         of {}.{}",
+        "A rigid block predicts {} of the outcomes of {} shaking-table \
+         tests. {} The scatter of the capacity that the model leaves out has \
+         a dispersion of {}.{}",
         share(&found.computed.right),
         found.tests,
         bias(found),
@@ -159,8 +159,8 @@ pub(super) fn first(found: &TestComparison) -> String {
 /// The intervals in a sentence.
 pub(super) fn intervals(found: &TestComparison) -> String {
     let mut text = format!(
-        "Brackets hold {} intervals: {} draws of the {} motions, each with \
-         all its tests.",
+        "Brackets give {} intervals, from {} draws of the {} motions, each \
+         with all its tests.",
         level(found),
         found.replicates,
         found.motions
@@ -171,7 +171,7 @@ pub(super) fn intervals(found: &TestComparison) -> String {
     text
 }
 
-/// Whether the block predicts the fates better than intensity alone.
+/// Whether the block predicts the outcomes better than intensity by itself.
 pub(super) fn rivals(found: &TestComparison) -> Option<String> {
     let score = |one: &Predictor| one.log_score.value();
     let best =
@@ -179,17 +179,18 @@ pub(super) fn rivals(found: &TestComparison) -> Option<String> {
     let im = measure(&best.predictor);
     let verdict = match score(&found.computed) < score(best) {
         true => {
-            "the block predicts these fates better than each intensity \
-                 measure alone"
+            "the block predicts these outcomes better than any single \
+             intensity measure"
         }
         false => &format!(
-            "{im} alone predicts these fates as well as the block or better"
+            "{im} by itself predicts these outcomes at least as well as the \
+             block"
         ),
     };
     Some(format!(
         "By the mean log score {verdict}: {} for the block, {} for {im}, the \
-         best measure. Small is good; each probability is of a fit without \
-         the motion of its test.",
+         best measure. Smaller is better; each probability is from a fit \
+         without the motion of its test.",
         three_digits(&found.computed.log_score),
         three_digits(&best.log_score),
     ))
@@ -200,7 +201,7 @@ pub(super) fn unfitted(found: &TestComparison) -> Vec<String> {
     let line = |one: &UnfittedMeasure| {
         let fates = if one.computed { "computed" } else { "measured" };
         format!(
-            "{}: the {fates} fates give no fit: {}.",
+            "{}: the {fates} outcomes give no fit: {}.",
             measure(&one.im),
             one.reason
         )
@@ -216,26 +217,26 @@ pub(super) fn repeatability(found: &TestComparison) -> Vec<String> {
     let mut all = Vec::new();
     if pairs > 0 {
         all.push(format!(
-            "{different} of {pairs} pairs of tests of one motion whose PGA \
-             differ by 5 % or less have different fates."
+            "{different} of {pairs} pairs of tests of one motion whose PGAs \
+             differ by 5 % or less have different outcomes."
         ));
     }
     if mixed > 0 {
         all.push(format!(
-            "{not_monotone} of {mixed} motions with both fates overturned \
-             the specimen at a lower PGA than one at which it stood."
+            "{not_monotone} of {mixed} motions with both outcomes overturned \
+             the specimen at a lower PGA than one that it survived."
         ));
     }
     if let Some(dispersion) = own.dispersion.map(short) {
         all.push(format!(
             "Within a motion the capacity has a dispersion of {dispersion}, \
-             which is biased low: each motion has a median of its own."
+             which is biased low, since each motion has its own median."
         ));
     }
     all
 }
 
-/// Tests at which the block stands above its first overturning.
+/// Tests at which the block survives above its first overturning.
 pub(super) fn resurrected(found: &TestComparison) -> Option<String> {
     let own = &found.resurrected;
     if own.tests == 0 {
@@ -243,23 +244,23 @@ pub(super) fn resurrected(found: &TestComparison) -> Option<String> {
     }
     let expected = own.expected.map_or(String::new(), |number| {
         format!(
-            "; by the levels of their first overturning {} were to be \
-             expected",
+            "; {} would be expected from the levels of their first \
+             overturning",
             short(number)
         )
     });
     Some(format!(
-        "In {} of the tests the block stands, but overturns at a lower level \
-         of the same motion. {} of these tests overturned the specimen{expected}. \
-         If the block at the level of the test decides, {} % of all fates \
-         are right.",
+        "In {} of the tests the block survives, but overturns at a lower \
+         level of the same motion. {} of these tests overturned the \
+         specimen{expected}. By the block at the level of the test, {} % of \
+         all outcomes are right.",
         own.tests,
         own.overturned,
         short(100.0 * own.right_at_level)
     ))
 }
 
-/// What happened below the onset of rocking.
+/// Tests below the onset of rocking.
 pub(super) fn below(found: &TestComparison) -> String {
     let own = &found.onset;
     format!(
@@ -278,7 +279,7 @@ pub(super) type TestsTable = (Vec<String>, Vec<Vec<String>>);
 pub(super) fn predictors(found: &TestComparison) -> TestsTable {
     let heads = [
         "Predictor",
-        &format!("Fates right ({})", level(found)),
+        &format!("Outcomes predicted ({})", level(found)),
         "Median: measured over computed capacity, or intensity",
         "Dispersion",
         "Area under the ROC curve",
@@ -286,7 +287,7 @@ pub(super) fn predictors(found: &TestComparison) -> TestsTable {
         "Log-likelihood",
     ];
     let row = |one: &Predictor| {
-        // The block is no measure.
+        // The block is not a measure.
         let im = one.predictor.parse::<IntensityMeasure>();
         let unit = im.as_ref().map_or("", IntensityMeasure::unit);
         let gap = if unit.is_empty() { "" } else { " " };
@@ -349,7 +350,8 @@ pub(super) fn onsets(found: &TestComparison) -> TestsTable {
     (["Fit", "Log-likelihood"].map(str::to_owned).into(), rows.into())
 }
 
-/// What the terminal shows.
+/// The text for the terminal.
+#[must_use]
 pub fn text(found: &TestComparison) -> String {
     let (heads, rows) = predictors(found);
     let mut lines = vec![
@@ -380,8 +382,10 @@ pub(super) fn counts(found: &TestComparison) -> String {
         found.tests, found.motions, found.overturned
     );
     if unknown > 0 {
-        text +=
-            &format!(" {unknown} more have an unknown fate and are left out.");
+        text += &format!(
+            " {unknown} more have an unknown outcome and are left \
+                      out."
+        );
     }
     if never > 0 {
         text += &format!(

@@ -26,20 +26,20 @@ use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 
-/// The kind of the suite, where nothing else is said.
+/// The kind of a suite by default.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
 
 /// Which object overturns first, how often, and how sure that is: from a
 /// table of objects to one page.
 ///
-/// Each object is a rigid block that stands free and rocks on flat ground;
-/// it slides, jumps and twists not. Records are scaled until they overturn
-/// it. Without --suite the records are the 86 synthetic motions of ordinary
-/// earthquakes that the program makes itself; `python -m rocking.recorded
+/// Each object is a rigid block that stands free and rocks on flat ground; it
+/// does not slide, jump or twist. Records are scaled until they overturn it.
+/// Without --suite the records are the 86 synthetic motions of ordinary
+/// earthquakes that come with the program; `python -m rocking.recorded
 /// motions` writes recorded ones (FEMA P-695). Without --hazard objects are
-/// ranked by the PGA that overturns them with a probability of 5 %, not by
-/// how often a year. DIR gets the page index.html, assess.json with every
-/// number of it, and CSV files of the curves.
+/// ranked by the PGA that overturns them with a probability of 5 %, not by how
+/// often a year. DIR gets the page index.html, assess.json with every number
+/// of it, and CSV files of the curves.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("object").required(true).multiple(true)
     .args(["objects", "width_m", "alpha"]))]
@@ -47,9 +47,9 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
     rocking assess --objects objects.csv --hazard hazard.csv\n  \
     rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
 pub struct AssessCommand {
-    /// Table of objects, CSV: width_m,height_m or alpha,p, and where wanted
-    /// id, eta, friction (of the floor), limit_ratio (a rotation over alpha
-    /// that must not be exceeded) and floor.
+    /// Table of objects, CSV: width_m,height_m or alpha,p, and optionally id,
+    /// eta, friction (of the floor), limit_ratio (a rotation over alpha that
+    /// must not be exceeded) and floor.
     #[arg(
         long,
         value_name = "OBJECTS.csv",
@@ -70,13 +70,14 @@ pub struct AssessCommand {
     reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
-    /// Hazard curve of the site, CSV; `rocking risk --help` says its columns.
+    /// Hazard curve of the site, CSV; for its columns see `rocking risk
+    /// --help`.
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: Option<PathBuf>,
     #[command(flatten)]
     site: SiteArgs,
-    /// Resolve each fate in the arithmetic that it needs; without it such
-    /// analyses are counted. It takes some thirty times as long.
+    /// Settle each outcome in sufficient precision, in about thirty times the
+    /// time; without it, doubtful analyses are only counted.
     #[arg(long)]
     certify: bool,
     #[command(flatten)]
@@ -85,7 +86,7 @@ pub struct AssessCommand {
     bootstrap: BootstrapArgs,
     #[command(flatten)]
     threads: ThreadsArg,
-    /// Folder of the page: a new or an empty one.
+    /// Folder of the page; must be new or empty.
     #[arg(long, value_name = "DIR", default_value = "rocking-assessment")]
     out: PathBuf,
     /// Print assess.json.

@@ -17,7 +17,7 @@ const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
                         height_m, and where wanted id, eta, sample, \
                         friction, limit_ratio and floor";
 
-/// The cells of a row; an empty one is none.
+/// The cells of a row; `None` for an empty one.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BlockCells {
@@ -38,7 +38,7 @@ struct BlockCells {
 pub struct BlockRow {
     /// File and line.
     pub place: String,
-    /// The name, made of alpha and p where none is given.
+    /// The name, by default made of alpha and p.
     pub id: Id,
     /// The block.
     pub block: Block,
@@ -50,12 +50,12 @@ pub struct BlockRow {
     pub friction: Option<f64>,
     /// Rotation over slenderness that must not be exceeded.
     pub limit_ratio: Option<f64>,
-    /// The floor of a building on which it stands; none: the ground.
+    /// The floor of the building; `None` for the ground.
     pub floor: Option<Id>,
 }
 
 impl BlockRow {
-    /// A block that no table holds.
+    /// A block that is not from a table.
     pub fn of(id: Id, block: Block) -> Self {
         let place = id.to_string();
         let samples = Vec::new();
@@ -113,8 +113,8 @@ pub fn parse(
         let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
         if let Some(before) = ids.insert(id.clone(), line) {
             bail!(
-                "{place}: {id} stands on line {before} too: expected an id of \
-                 its own"
+                "{place}: {id} is already on line {before}: expected a \
+                 unique id"
             );
         }
         let samples = cells.sample.map_or(Vec::new(), |names| {

@@ -27,9 +27,9 @@ use rocking_common::paper::Intensity;
 /// Intensities at which EDP levels are reached, from one curve or from all
 /// records of an IDA file.
 ///
-/// A level is crossed where the curve passes it (at least the level counts
-/// as above); overturning crosses every level, and a record that never
-/// reached one is censored (inf). The count of crossings is odd.
+/// A curve crosses a level where it passes from below the level to the level
+/// or above, or back. Overturning crosses every level. A record that never
+/// reaches a level is censored (inf). The number of crossings is odd.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking capacities --ida ida.csv --levels 0.3,0.5,1\n  \
@@ -38,7 +38,7 @@ use rocking_common::paper::Intensity;
 #[command(group = ArgGroup::new("source").required(true)
     .args(["curve", "ida"]))]
 pub struct CapacitiesCommand {
-    /// One curve by its vertices IM:EDP, the first at EDP 0.
+    /// Vertices IM:EDP of one curve, the first at EDP 0.
     #[arg(long, value_name = "IM:EDP,..", allow_hyphen_values = true)]
     curve: Option<Vertices>,
     /// Intensity of first overturning of the curve.
@@ -57,7 +57,7 @@ pub struct CapacitiesCommand {
     im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
-    /// EDP levels, FIRST:LAST:STEP or by commas; inf: overturning.
+    /// EDP levels, FIRST:LAST:STEP or a list; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",
@@ -66,16 +66,16 @@ pub struct CapacitiesCommand {
         allow_hyphen_values = true
     )]
     levels: EdpLevels,
-    /// Which single capacity is made of several crossings, for the quantiles
-    /// over the records of --ida [default: median].
+    /// Capacity of a record with several crossings, for the quantiles over the
+    /// records of --ida [default: median].
     #[arg(long, value_parser = names::crossing(), conflicts_with = "curve")]
     point: Option<InversionRule>,
     /// EDP level of the sample written to --out.
     #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
     at: Option<f64>,
-    /// Write the records' capacities at --at, one a line, `>3.2` if censored
-    /// at 3.2, the last intensity run;
-    /// `-` is standard output, and nothing else is printed then.
+    /// Write the records' capacities at --at, one per line, `>3.2` if censored
+    /// at 3.2, the last intensity run; `-` is standard output, and then
+    /// nothing else is printed.
     #[arg(
         long,
         value_name = "OUT.txt",
@@ -213,10 +213,10 @@ struct CapacitiesSummary {
     point: String,
     quantile_type: u8,
     rows_after_overturning: usize,
-    /// What was set aside of the suite; none where none was read.
+    /// Files set aside of the suite; `None` if none was read.
     set_aside: Option<SetAside>,
     levels: Vec<LevelCapacities>,
-    /// Each record alone: in JSON, since its crossings are many.
+    /// Each record by itself; only in JSON, since the crossings are many.
     #[serde(skip_serializing_if = "Option::is_none")]
     records: Option<Vec<RecordCrossings>>,
 }
@@ -289,7 +289,7 @@ fn suite(
     if let Some(intensity) = measure.dimensionless() {
         ensure!(
             !args.ground.is_given(),
-            "--suite is not used for {}, which the table holds",
+            "--suite is not used for {}, which the table contains",
             intensity.row().words
         );
         let (table, curves) = input::ida(path, intensity)?;

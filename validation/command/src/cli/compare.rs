@@ -14,7 +14,7 @@ use crate::input;
 /// and of equivalence to it. Values are paired by the names of their records;
 /// `rocking contrast` takes samples of different records.
 ///
-/// A ratio exists where both values are finite and positive. Pairs in which
+/// A pair has a ratio if both values are finite and positive. Pairs in which
 /// one or both are infinite (overturned, censored) or zero are counted by
 /// kind.
 #[derive(clap::Args)]

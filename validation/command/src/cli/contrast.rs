@@ -14,9 +14,9 @@ use crate::input;
 /// distance of their distributions. `rocking compare` pairs samples of the
 /// same records.
 ///
-/// The interval of the ratio a/b is of the bootstrap, which draws earthquakes
-/// where a file says them. Kolmogorov and Smirnov's p-value is exact for
-/// independent records, and left out where an earthquake has several.
+/// The interval of the ratio a/b is from a bootstrap, which draws earthquakes
+/// if a file states them. Kolmogorov and Smirnov's p-value is exact for
+/// independent records; it is left out if an earthquake has several.
 #[derive(clap::Args)]
 pub struct ContrastCommand {
     /// Sample file of the numerator.

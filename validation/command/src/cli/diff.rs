@@ -11,19 +11,19 @@ use rocking_report::diff::{ResultFiles, compare};
 
 /// What changed between two results, and whether it matters.
 ///
-/// OLD and NEW are each a folder of a study, a folder of reports, or one
-/// file: findings.json or verification.json; without them, the committed
-/// reports and what `rocking study` wrote last. The first lines name the
+/// OLD and NEW are each a folder of a study, a folder of reports, or one file:
+/// findings.json or verification.json. Without them, the committed reports are
+/// compared with what `rocking study` wrote last. The first lines name the
 /// settings and records that changed, the effect on overturning intensities,
-/// and how many answers, words on claims (seen, exists) and numbers changed. A
-/// number is relevant if it moved by more than the smallest effect of
-/// interest: 5 % of a response ratio, 10 % of a median intensity or a
-/// dispersion, 10 points of a share, 0.05 of a probability; in a declared
-/// case, by more than its tolerance. Relevant numbers are sorted by their change over the
-/// half-widths of both intervals (u), or, without intervals, over that
-/// effect; those of fewer than 30 records (n) come last. Ends with 1 if a
-/// change is relevant: an answer, a word, a setting, the records, such a
-/// number, or a result that one side lacks.
+/// and how many answers, verdicts on statements (seen, exists) and numbers
+/// changed. A number is relevant if it moved by more than the smallest effect
+/// of interest: 5 % of a response ratio, 10 % of a median intensity or a
+/// dispersion, 10 points of a share, 0.05 of a probability; in a reference
+/// case, by more than its tolerance. Relevant numbers are sorted by their
+/// change over the half-widths of both intervals (u), or, without intervals,
+/// over that effect; numbers from fewer than 30 records (n) come last. Ends
+/// with 1 if a change is relevant: an answer, a word, a setting, the records,
+/// such a number, or a result that one side lacks.
 #[derive(clap::Args)]
 pub struct DiffCommand {
     /// Results before.

@@ -1,4 +1,4 @@
-//! Flags that say what moves the ground.
+//! Flags of the excitation.
 
 use std::iter::repeat;
 use std::path::PathBuf;
@@ -45,7 +45,7 @@ pub struct ExcitationArgs {
     pulse: Option<PulseName>,
     #[command(flatten)]
     parameters: PulseParameters,
-    /// No ground motion: released at rest from an initial rotation.
+    /// No ground motion: the block is released from an initial rotation.
     #[arg(long, requires = "initial_ratio")]
     free: bool,
     /// Initial rotation over alpha, in (0, 1).
@@ -89,7 +89,7 @@ enum MotionSource {
     Free,
 }
 
-/// The excitation, and what is said of it.
+/// The excitation, and what is known of it.
 #[derive(Clone, Debug)]
 pub struct GroundMotion {
     motion: MotionSource,
@@ -224,15 +224,15 @@ impl ExcitationArgs {
         self.record.iter().cloned().collect()
     }
 
-    /// What was done to the record, in words.
+    /// The processing of the record, in words.
     ///
     /// # Errors
-    /// [`Failure`] for a corner that is none.
+    /// [`Failure`] for an invalid corner.
     pub fn processing(&self) -> Result<Option<String>, Failure> {
         Ok(words(&self.processing.processing()?))
     }
 
-    /// What moves the ground, in a word.
+    /// The excitation, in a word.
     pub fn name(&self) -> String {
         let file = self.record.as_deref().and_then(|path| path.file_stem());
         match (file, self.pulse) {
@@ -309,7 +309,7 @@ impl GroundMotion {
         Self { motion, pga_g, dt_s, initial_ratio, remarks }
     }
 
-    /// What moves the ground.
+    /// The excitation.
     pub fn excitation(&self) -> Excitation<'_> {
         match &self.motion {
             MotionSource::Factor(record, factor) => {

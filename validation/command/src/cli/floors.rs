@@ -60,7 +60,7 @@ pub fn parse(
         let floor = Floor::try_new(period_s, damping, height_ratio);
         ensure!(
             floors.insert(name.clone(), floor.at(&place)?).is_none(),
-            "{place}: floor {name} stands on a line above, too: expected each \
+            "{place}: floor {name} is already on a line above: expected each \
              name once"
         );
     }

@@ -83,17 +83,17 @@ pub struct IdaCommand {
         default_value_t = Adjust::RecordScaling
     )]
     by: Adjust,
-    /// Go on above the first overturning and look where the block stands
-    /// again: to this IM, or, without a number, to 3 times the first
-    /// overturning.
+    /// Continue above the first overturning and find the levels at which the
+    /// block survives again: up to this IM or, without a number, up to 3 times
+    /// the first overturning.
     #[arg(long, value_name = "IM", num_args = 0..=1)]
     resurrections_to: Option<Option<f64>>,
     /// Which components of the pairs.
     #[arg(long, value_enum, default_value_t = ComponentChoice::Study)]
     component: ComponentChoice,
-    /// Tell outcome and peak of each analysis in the precision that they
-    /// need: double-double where double precision cannot, octuple precision
-    /// beyond; without it such analyses are flagged `unresolved`.
+    /// Settle outcome and peak of each analysis in sufficient precision:
+    /// double-double if double precision does not suffice, then octuple;
+    /// without it, such analyses are flagged `unresolved`.
     #[arg(long)]
     certify: bool,
     /// Order of the Taylor polynomial of Eq. 1, for a table that no command
@@ -230,12 +230,12 @@ struct IdaRun<'a> {
     analysis: &'a Analysis,
     processing: Option<String>,
     remarks: &'a Remarks,
-    /// Earthquakes of the records; empty where the index names none.
+    /// Earthquakes of the records; empty if the index names none.
     events: BTreeMap<&'a str, &'a str>,
     bar: indicatif::ProgressBar,
     out: Output,
     forces_out: Option<Output>,
-    /// The curves, where they are drawn.
+    /// The curves, if they are drawn.
     curves: Option<Vec<ResponseCurve>>,
     summary: IdaSummary,
     pivot: Option<PivotForces>,
@@ -263,7 +263,7 @@ impl IdaRun<'_> {
         let gravity_m_s2 = args.model.gravity_m_s2;
         let rows = IdaTable::of(&table, analysis, gravity_m_s2, about, known);
         let is_first = self.summary.records == 0;
-        // The header stands once.
+        // The header is written once.
         let part = |text: String| match is_first {
             true => text,
             false => body(&text).to_owned(),
@@ -307,11 +307,11 @@ fn svg(
     Ok(ida_svg(curves, &stripes, (axis, &block)))
 }
 
-/// What is shown of a table.
+/// The result of a table.
 #[derive(Serialize)]
 struct IdaReport<'a> {
     suite: &'a str,
-    /// Of the records; none where the index names none.
+    /// Earthquakes of the records; `None` if the index names none.
     earthquakes: Option<usize>,
     study_components: String,
     processing: Option<&'a str>,
@@ -337,7 +337,7 @@ impl IdaCommand {
         let model = self.model.model;
         ensure!(
             self.order.is_none() || model == Model::Nonlinear,
-            "--order is for Eq. 1; --model linearized has no choice of it"
+            "--order is for Eq. 1, not for --model linearized"
         );
         Ok(Analysis {
             block,
@@ -355,7 +355,7 @@ impl IdaCommand {
         })
     }
 
-    /// The records of the component asked for, in the suite's order.
+    /// The records of the chosen component, in the suite's order.
     fn chosen<'s>(
         &self,
         suite: &'s Suite<Profile>,
@@ -375,7 +375,7 @@ impl IdaCommand {
             suite.members().iter().filter(is_chosen).collect();
         ensure!(
             !chosen.is_empty(),
-            "{}: no record of the component asked for",
+            "{}: no record of this component",
             self.suite.display()
         );
         Ok(chosen)

@@ -18,21 +18,21 @@ use rocking_common::files::Outputs;
 use rocking_common::table::Table as Csv;
 use rocking_exchange::sample::SampleFile;
 
-/// Values of a simulated sample, at most: each thread holds one.
+/// Largest size of a simulated sample: each thread has one in memory.
 const MOST_VALUES: i64 = 10_000_000;
-/// Replicates where none are asked for.
+/// Replicates by default.
 const REPLICATES: u64 = 1_000_000;
 
 /// Lilliefors' test of normality on a sample, or its critical values.
 ///
-/// The p-value comes from the project's own Monte Carlo table, whose sizes
-/// end at n = 1000 (`scaled table` above) and whose levels end at 0.99 and
-/// 0.0001 (`extrapolated` beyond), or from a direct simulation when
-/// --replicates is given; then those of Anderson-Darling, Cramer-von Mises and
-/// Shapiro-Wilk are simulated too, else they come from published
-/// approximations. A verdict is refused where the test does not apply:
-/// censored values, values not above the shift, values that do not vary,
-/// fewer than 4 values, fewer than 80 % distinct ones.
+/// The p-value comes from the project's own Monte Carlo table, whose sizes end
+/// at n = 1000 (`scaled table` above) and whose levels end at 0.99 and 0.0001
+/// (`extrapolated` beyond), or from a direct simulation if --replicates is
+/// given. The p-values of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk
+/// are then simulated, too; otherwise they come from published approximations.
+/// There is no verdict if the test does not apply: censored values, values not
+/// above the shift, values that do not vary, fewer than 4 values, fewer than
+/// 80 % distinct ones.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "critical_values", "write_table"]))]
@@ -70,12 +70,12 @@ pub struct LillieforsCommand {
     /// 1000000 for critical values).
     #[arg(long, value_name = "N", conflicts_with = "write_table")]
     replicates: Option<u64>,
-    /// Repetition of the simulation.
+    /// Seed of the simulation.
     #[arg(long, value_name = "S", conflicts_with = "write_table")]
     seed: Option<u64>,
     #[command(flatten)]
     threads: ThreadsArg,
-    /// Simulate the committed table anew and write it to this file.
+    /// Simulate the committed table again and write it to this file.
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     write_table: Option<PathBuf>,
     #[command(flatten)]
@@ -135,7 +135,7 @@ fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
     if is_tabled && (args.seed.is_some() || args.threads.threads.is_some()) {
         bail!(
             "--seed and --threads are not used without --replicates: the \
-             table answers"
+             p-value is from the table"
         );
     }
     let words = match found.verdict {

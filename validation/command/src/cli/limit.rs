@@ -8,17 +8,17 @@ use crate::failure::Failure;
 /// Work beyond which a run is refused.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct LimitArgs {
-    /// Impacts beyond which a run is refused [default: 1e6, of `ida` 1e7].
+    /// Largest number of impacts of a run [default: 1e6, `ida` 1e7].
     #[arg(long, value_name = "N")]
     most_impacts: Option<u64>,
-    /// Steps, or points of a history, beyond which a run is refused
-    /// [default: 1e7, of `ida` 2e7].
+    /// Largest number of steps of a run, or of points of a history [default:
+    /// 1e7, `ida` 2e7].
     #[arg(long, value_name = "N")]
     most_steps: Option<u64>,
 }
 
 impl LimitArgs {
-    /// The limit, where it is not given that of the command.
+    /// The limit; by default `own`, that of the command.
     pub fn limit(&self, own: WorkLimit) -> WorkLimit {
         WorkLimit {
             impacts: self.most_impacts.unwrap_or(own.impacts),

@@ -21,26 +21,26 @@ use crate::input;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 
-/// Where the records are that the table was made of.
+/// The records from which the table was made.
 #[derive(clap::Args, Clone, Debug)]
 pub struct GroundArgs {
     /// The suite of --ida: folder, index or zip; for measures that the table
-    /// does not hold.
+    /// does not contain.
     #[arg(long, value_name = "PATH", requires = "ida")]
     suite: Option<PathBuf>,
     #[command(flatten)]
     reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
-    /// Table of attributes by record: CSV with a column `record`, named as
-    /// in --ida. Columns of the suite's index are attributes too.
+    /// Attributes by record: CSV with a column `record`, whose names are those
+    /// of --ida. Columns of the suite's index are attributes, too.
     #[arg(long, value_name = "FILE.csv", requires = "suite")]
     attributes: Option<PathBuf>,
 }
 
 /// The unscaled records of a table, in its order.
 pub struct SuiteMeasures {
-    /// Where the attributes come from.
+    /// Source of the attributes.
     place: PathBuf,
     periods_s: Vec<f64>,
     uplift: AtUplift,
@@ -69,7 +69,7 @@ impl GroundArgs {
     ///
     /// # Errors
     /// [`Failure`] for a suite that is refused, one that is not the table's,
-    /// or a table whose intensities are no scale factors.
+    /// or a table whose intensities are not scale factors.
     pub fn ground(
         &self,
         table: &IdaTable,
@@ -150,7 +150,7 @@ fn uplift(table: &IdaTable) -> Result<f64, Failure> {
 }
 
 impl SuiteMeasures {
-    /// What was set aside of the suite.
+    /// Files set aside of the suite.
     pub fn into_set_aside(self) -> SetAside {
         self.set_aside
     }
@@ -256,7 +256,7 @@ fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
         let record = row[key].to_owned();
         ensure!(
             rows.insert(record.clone(), row).is_none(),
-            "{place}:{line}: record {record} comes again: expected it once"
+            "{place}:{line}: record {record} is repeated: expected it once"
         );
     }
     Ok(Attributes { header, rows })

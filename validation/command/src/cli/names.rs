@@ -9,8 +9,7 @@ use rocking_statistics::lognormal::FitMethod;
 
 use rocking_common::paper::{Arm, Intensity};
 
-/// What each of some values is called, and what the help says of it, if
-/// anything.
+/// Names of values, with their help texts, if any.
 pub fn named<T: Copy + Send + Sync + 'static>(
     values: impl AsRef<[T]>,
     name: fn(T) -> &'static str,
@@ -45,7 +44,7 @@ pub fn intensity() -> impl TypedValueParser<Value = Intensity> {
     named(Intensity::ALL, Intensity::name, help)
 }
 
-/// Which single capacity is made of several crossings.
+/// Capacity of a record with several crossings.
 pub fn crossing() -> impl TypedValueParser<Value = InversionRule> {
     let help = [
         "The median crossing",

@@ -4,28 +4,28 @@ use rocking_records::Processing;
 
 use crate::failure::{AtPlace as _, Failure};
 
-/// What is done to records; nothing unless asked for.
+/// Processing of records; none by default.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ProcessingArgs {
-    /// Take the mean off every record.
+    /// Remove the mean of every record.
     #[arg(long)]
     demean: bool,
-    /// Pass what lies above this corner in Hz: Butterworth of order 4,
-    /// forwards and backwards, with 6/corner s of zeros added at both ends.
+    /// Corner of a high-pass filter in Hz: Butterworth of order 4, forwards
+    /// and backwards, with 6/corner s of zeros added at both ends.
     #[arg(long, value_name = "CORNER_HZ")]
     pub high_pass: Option<f64>,
 }
 
 impl ProcessingArgs {
-    /// What is asked for.
+    /// The processing of these flags.
     ///
     /// # Errors
-    /// [`Failure`] for a corner that is none.
+    /// [`Failure`] for an invalid corner.
     pub fn processing(self) -> Result<Processing, Failure> {
         Processing::try_new(self.demean, self.high_pass).at("--high-pass")
     }
 
-    /// The first flag given, to be refused where no record is read.
+    /// The first flag given, to be refused if no record is read.
     pub fn given(self) -> Option<&'static str> {
         if self.demean {
             Some("--demean")
@@ -35,7 +35,7 @@ impl ProcessingArgs {
     }
 }
 
-/// The words for results: `null` in JSON where nothing was done.
+/// The processing in words; `None` if there was none.
 pub fn words(processing: &Processing) -> Option<String> {
     (!processing.is_none()).then(|| processing.to_string())
 }

@@ -1,4 +1,4 @@
-//! `rocking rank`: which intensity measure tells the capacities best.
+//! `rocking rank`: which intensity measure predicts the capacities best.
 
 use std::path::PathBuf;
 
@@ -23,14 +23,15 @@ use rocking_draw::figures::of_result::ranking_svg;
 ///
 /// The capacity of a record is its measure, scaled to where the response
 /// reaches --at. Efficiency is the dispersion beta of these capacities
-/// (lognormal, maximum likelihood, censored records by their limits): the
-/// smaller, the fewer records are needed; Arias intensity, which grows with
-/// the square of the acceleration, enters by its root. Sufficiency is the slope of the
-/// logarithm of the capacity on magnitude, and on the logarithm of distance
-/// (least squares; where the IDA says the earthquakes, with a random
-/// intercept for each): a small p-value says that the measure leaves out what
-/// magnitude or distance tells. Intervals are of the bootstrap, which draws
-/// earthquakes where they are known; one draw for all measures.
+/// (lognormal, maximum likelihood, censored records at their limits): the
+/// smaller it is, the fewer records are needed. Arias intensity grows with the
+/// square of the acceleration, so its square root is ranked. Sufficiency is
+/// the slope of the logarithm of the capacity on magnitude, and on the
+/// logarithm of distance (least squares; with a random intercept for each
+/// earthquake if the IDA states them): a small p-value means that magnitude or
+/// distance adds information to the measure. Intervals are from a bootstrap,
+/// which draws earthquakes if they are known, with the same draws for all
+/// measures.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw the dispersions with their intervals"
@@ -43,21 +44,21 @@ pub struct RankCommand {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
-    /// Response (EDP) whose capacities are ranked; at 1 the block stands on
-    /// its corner.
+    /// Response (EDP) whose capacities are ranked; at 1 the centre of mass is
+    /// above the corner.
     #[arg(long, value_name = "E")]
     at: f64,
-    /// An intensity measure: pga, pgv, pgd, arias, cav,
-    /// pgv-d575 (PGV D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean,
-    /// periods in s), avgsa:rocking (0.15 to 1.0 times 2 pi/p) or column:NAME
-    /// (of --attributes or the index, proportional to the acceleration); again
-    /// for each one [default: pga, pgv, pgd, arias, cav, pgv-d575, sa at 0.5,
-    /// 1, 2, 3 and 4 s, and avgsa:rocking]. Ratios are to the first one.
+    /// An intensity measure: pga, pgv, pgd, arias, cav, pgv-d575 (PGV
+    /// D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean, periods in s),
+    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p) or column:NAME (of
+    /// --attributes or the index, proportional to the acceleration); repeat it
+    /// for each [default: pga, pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1,
+    /// 2, 3 and 4 s, and avgsa:rocking]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,
     #[command(flatten)]
     ground: GroundArgs,
-    /// Which single capacity is made of several crossings.
+    /// Capacity of a record with several crossings.
     #[arg(
         long,
         value_parser = names::crossing(),
@@ -67,7 +68,7 @@ pub struct RankCommand {
     /// Column of the magnitude.
     #[arg(long, value_name = "COLUMN")]
     magnitude: Option<String>,
-    /// Column of the distance, whose logarithm is taken.
+    /// Column of the distance; its logarithm is used.
     #[arg(long, value_name = "COLUMN")]
     distance: Option<String>,
     #[command(flatten)]
@@ -84,7 +85,7 @@ pub struct RankCommand {
 struct RankSummary {
     edp: f64,
     point: String,
-    /// What was set aside of the suite.
+    /// Files set aside of the suite.
     set_aside: SetAside,
     #[serde(flatten)]
     ranking: Ranking,
@@ -139,7 +140,7 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
 }
 
 impl RankCommand {
-    /// The columns on which slopes are asked for.
+    /// The columns of the slopes.
     fn covariates(
         &self,
         ground: &SuiteMeasures,

@@ -9,20 +9,20 @@ use crate::failure::{Failure, bail, ensure};
 use crate::terminal::note;
 use rocking_common::suites::remarks::Remarks;
 
-/// What record files do not state.
+/// Flags for what record files do not state.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ReadArgs {
-    /// Sampling interval in s of record files that state none.
+    /// Sampling interval in s, for record files that do not state it.
     #[arg(long, value_name = "S")]
     dt: Option<f64>,
-    /// Unit of record files that state none: g, m/s2 or cm/s2.
+    /// Unit (g, m/s2 or cm/s2), for record files that do not state it.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     units: Option<AccelerationUnit>,
-    /// Enter the folders in a folder of records.
+    /// Also read the subfolders of a folder of records.
     #[arg(long)]
     recursive: bool,
-    /// Fail where a record is suspicious, or a file is set aside: `rocking
-    /// records` lists what.
+    /// Fail if a record looks suspicious or a file is set aside; `rocking
+    /// records` lists them.
     #[arg(long)]
     strict: bool,
 }
@@ -51,7 +51,7 @@ impl ReadArgs {
         Ok(self.options(gravity_m_s2))
     }
 
-    /// The first flag given, to be refused where no record is read.
+    /// The first flag given, to be refused if no record is read.
     pub fn given(self) -> Option<&'static str> {
         if self.dt.is_some() {
             Some("--dt")
@@ -64,8 +64,8 @@ impl ReadArgs {
         }
     }
 
-    /// Refuses flags of records, these and those of the processing, where no
-    /// record is read without another flag.
+    /// Refuses flags of reading and processing if no record is read without
+    /// another flag.
     ///
     /// # Errors
     /// [`Failure`] with the flag and the other one.
@@ -80,8 +80,8 @@ impl ReadArgs {
         }
     }
 
-    /// Notes for how many records the flags were taken, and with `--strict`
-    /// refuses remarks on records and what was set aside beside them.
+    /// Notes for how many records the flags were used. With `--strict`,
+    /// refuses remarks on records and files that were set aside.
     ///
     /// # Errors
     /// [`Failure`] with both in short.
@@ -97,8 +97,8 @@ impl ReadArgs {
             remarks.words().map(|words| format!("remarks on {words}"));
         let aside = (!set_aside.is_empty()).then(|| {
             format!(
-                "set aside: {set_aside}: expected records alone, as an index \
-                 lists them"
+                "set aside: {set_aside}: expected only records, as in an \
+                 index"
             )
         });
         let found: Vec<String> = aside.into_iter().chain(remarks).collect();

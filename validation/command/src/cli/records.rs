@@ -22,7 +22,7 @@ use rocking_common::suites::{clusters, earthquakes, inputs};
 
 mod measures;
 
-/// List record files: format, interval, length, PGA, PGV; say why one is
+/// List record files: format, interval, length, PGA, PGV, and why one is
 /// refused.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
@@ -61,7 +61,7 @@ struct RecordListing {
     pair: Option<String>,
     /// Whether the study uses it, in a suite.
     study_component: Option<bool>,
-    /// What reading found; with what the samples show, once all are read.
+    /// Remarks from reading; once all are read, also those on the samples.
     remarks: Vec<Remark>,
     given: Fallback,
 }
@@ -123,14 +123,14 @@ struct RecordRow<'a> {
 struct SuiteRow {
     suite: String,
     records: usize,
-    /// None where the index names none.
+    /// `None` if the index names none.
     earthquakes: Option<usize>,
     pairs: usize,
     study_components: usize,
     study_rule: String,
 }
 
-/// What is said of a file: why it was refused or set aside, or a remark.
+/// A finding on a file: why it was refused or set aside, or a remark.
 #[derive(Serialize)]
 struct RecordFinding {
     file: String,
@@ -159,7 +159,7 @@ fn causes(refused: &[RecordFinding]) -> String {
         let message = refused.message.as_str();
         let cause = message.strip_prefix(&refused.file);
         let cause = cause.and_then(|cause| cause.strip_prefix(": "));
-        // A message that does not begin with its file stands alone.
+        // A message that does not begin with its file is its own cause.
         causes.entry(cause.ok_or(place)).or_insert((message, 0)).1 += 1;
     }
     let line = |(message, count): (&str, usize)| match count {

@@ -49,14 +49,14 @@ pub struct RespondCommand {
     history: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotArg,
-    /// Tell outcome and peak in the precision that they need: double-double
-    /// where double precision cannot, octuple precision beyond. With `--until`
-    /// those of the time observed.
+    /// Settle outcome and peak in sufficient precision: double-double if
+    /// double precision does not suffice, then octuple. With `--until` they
+    /// are those of the time observed.
     #[arg(long)]
     certify: bool,
     /// Largest friction |H|/N that the motion needs at the pivot, and the
-    /// least normal force N/(m g) there. The model holds where the ground
-    /// gives that friction and N stays above zero.
+    /// least normal force N/(m g) there. The model is valid if the ground
+    /// provides that friction and N stays above zero.
     #[arg(long)]
     forces: bool,
     #[command(flatten)]
@@ -65,11 +65,11 @@ pub struct RespondCommand {
     json: JsonArg,
 }
 
-/// Interval of a history where the excitation has none of its own, s.
+/// Interval of a history if the excitation has none, s.
 const HISTORY_INTERVAL_S: f64 = 0.005;
 
-/// A result by the name of its outcome, `unresolved` where an error may have
-/// turned a decision.
+/// A result with the name of its outcome, `unresolved` if an error may have
+/// changed a decision.
 #[derive(Serialize)]
 struct NamedOutcome<T> {
     outcome: &'static str,
@@ -85,7 +85,7 @@ struct RespondSummary<'a> {
     scene: SceneSummary<'a>,
 }
 
-/// What was integrated.
+/// The scene that was integrated.
 #[derive(Serialize)]
 struct SceneSummary<'a> {
     alpha_rad: f64,
@@ -196,7 +196,7 @@ fn sentence(found: &RespondSummary<'_>) -> String {
     }
 }
 
-/// The certified fate; where it takes long, with a word on how far it is.
+/// The certified outcome, with notes on progress if it takes long.
 fn certified(
     scene: &Scene<'_>,
     until_s: Option<f64>,

@@ -20,6 +20,7 @@ use super::show::number;
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::terminal::note;
+use rocking_assessment::once_in;
 use rocking_common::files::Outputs;
 use rocking_draw::figures::of_suite::risk_svg;
 
@@ -28,12 +29,12 @@ use rocking_draw::figures::of_suite::risk_svg;
 ///
 /// The hazard curve is OpenQuake's CSV, or a CSV with the columns `pga_g`,
 /// `pgv_m_s`, `pgv_cm_s` or `intensity` (the fragility's own unit), and
-/// `annual_frequency` or `probability_of_exceedance`; a power of the
-/// intensity between its points. Lower and upper are bounds of its truncation
-/// at the last point. The 95 % interval holds the choice of the records, by a
-/// bootstrap that draws earthquakes where they are known, and the error of the
-/// model; a fragility of --median has that only if it is given. Several curves
-/// in SA make one in AvgSA.
+/// `annual_frequency` or `probability_of_exceedance`; it is interpolated as a
+/// power law. Frequencies are bounded below and above, since the curve ends at
+/// its last point. The 95 % interval covers the choice of the records, by a
+/// bootstrap that draws earthquakes if they are known, and the error of the
+/// model; a fragility of --median has an interval only if that error is given.
+/// Several curves in SA give one in AvgSA.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "law", "blocks"]))]
@@ -46,10 +47,10 @@ use rocking_draw::figures::of_suite::risk_svg;
     rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
     --alpha 0.15 --p 3")]
 pub struct RiskCommand {
-    /// Hazard curve, CSV; `-` is standard input; again for SA(T) of others.
+    /// Hazard curve, CSV; `-` is standard input; repeat it for more SA(T).
     #[arg(long, value_name = "HAZARD.csv", required = true)]
     hazard: Vec<PathBuf>,
-    /// Of --hazard in SA: mean correlation, dispersion; 1: upper bound.
+    /// With several --hazard: mean correlation (1: upper bound), dispersion.
     #[arg(long, value_name = "R,S")]
     correlation: Option<SpectralCorrelation>,
     #[command(flatten)]
@@ -85,18 +86,18 @@ pub struct RiskCommand {
     json: JsonArg,
 }
 
-/// Where and for how long a hazard curve holds.
+/// Site and years of a hazard curve.
 #[derive(clap::Args, Clone, Debug)]
 pub struct SiteArgs {
-    /// Site in OpenQuake's CSV of several: its place or its custom_site_id.
+    /// Site in an OpenQuake CSV: its coordinates or its custom_site_id.
     #[arg(long, value_name = "LON,LAT|ID", allow_hyphen_values = true)]
     site: Option<Site>,
-    /// Years of probabilities, also of a curve's without any [default: 50].
+    /// Years of probabilities, also if a curve states none [default: 50].
     #[arg(long, value_name = "T")]
     years: Option<f64>,
 }
 
-/// Years of the probabilities that are printed, where none are given.
+/// Years of the printed probabilities by default.
 const YEARS: f64 = 50.0;
 
 impl SiteArgs {
@@ -123,7 +124,7 @@ impl SiteArgs {
     }
 }
 
-/// What the fragilities come from.
+/// Source of the fragilities.
 enum RiskBasis {
     Files(FragilitySource),
     /// Median and dispersion.
@@ -139,7 +140,7 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     let read = args.source.inputs();
     let read = read.iter().chain(&args.hazard);
     if read.filter(|path| *path == standard).count() > 1 {
-        bail!("--hazard - and another file -: expected one of them as a file");
+        bail!("--hazard - and another input -: expected at most one of them");
     }
     let basis = match args.median.zip(args.dispersion) {
         None => RiskBasis::Files(args.source.open()?),
@@ -177,8 +178,8 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
         let width =
             often.high().unwrap_or(most) - often.low().unwrap_or(least);
         format!(
-            "Damage is expected once in {} on average: {} a year.",
-            rocking_assessment::years(&often.map(f64::recip)),
+            "Damage is expected {}: {} a year.",
+            once_in(&often.map(f64::recip)),
             number(least, Some(0.1 * width))
         )
     });
@@ -207,7 +208,7 @@ impl RiskCommand {
     }
 }
 
-/// Fragilities that one drawing can hold.
+/// Largest number of fragilities in a drawing.
 const MOST_DRAWN: usize = 6;
 
 /// The hazard curve, the fragilities and the risk by intensity.
@@ -240,8 +241,8 @@ fn kind(law: &Lognormal) -> &'static str {
     if law.shift() > 0.0 { "shifted" } else { "not shifted" }
 }
 
-/// The fits of the files, with the shift where there is one and without, in
-/// the unit of the hazard curve.
+/// The fits of the files, with the shift, if there is one, and without, in the
+/// unit of the hazard curve.
 fn of_source(
     args: &RiskCommand,
     source: &FragilitySource,

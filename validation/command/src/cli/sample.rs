@@ -27,7 +27,7 @@ pub struct SampleCommand {
         default_value = "0.16,0.5,0.84"
     )]
     at: Vec<f64>,
-    /// Type of the quantiles, 1 to 9: 5 is MATLAB's, 7 that of R and NumPy.
+    /// Type of the quantiles, 1 to 9: 5 is MATLAB's, 7 is R's and NumPy's.
     #[arg(long, value_name = "TYPE", default_value_t = 5)]
     quantile_type: u8,
     #[command(flatten)]

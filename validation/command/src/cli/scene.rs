@@ -37,7 +37,7 @@ pub struct BlockArgs {
 }
 
 impl BlockArgs {
-    /// The first flag given, to be refused where no block is needed.
+    /// The first flag given, to be refused if no block is needed.
     pub fn given(&self) -> Option<&'static str> {
         let flags = [
             ("--alpha", self.alpha),
@@ -52,7 +52,7 @@ impl BlockArgs {
     /// The block under gravity g (m/s2).
     ///
     /// # Errors
-    /// [`Failure`] for parameters that are no block's.
+    /// [`Failure`] for parameters outside the range of a block.
     pub fn block(&self, gravity_m_s2: f64) -> Result<Block, Failure> {
         match (self.alpha, self.p, self.width_m, self.height_m) {
             (Some(alpha), Some(p), None, None) => {
@@ -67,7 +67,7 @@ impl BlockArgs {
         }
     }
 
-    /// The block, or of `--p` alone one whose slenderness is to be fitted.
+    /// The block; with only `--p`, one whose slenderness is to be fitted.
     ///
     /// # Errors
     /// As [`BlockArgs::block`].
@@ -95,7 +95,7 @@ pub struct ModelArgs {
     /// When the block counts as overturned.
     #[arg(long, value_parser = names::overturning(), default_value = "alpha")]
     pub overturn: Overturning,
-    /// Gravity in m/s2, where sizes or SI records meet it.
+    /// Gravity in m/s2, for sizes and for records in SI units.
     #[arg(
         long = "gravity",
         value_name = "G",

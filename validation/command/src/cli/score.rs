@@ -13,12 +13,12 @@ use crate::input;
 /// Scores the answers of any rocking code, and names its mistake.
 ///
 /// ANSWERS.csv has the columns `scene,quantity,value`. The scenes, in SI
-/// units, and what is asked of each lie in fixtures/benchmark, whose README
-/// needs no other file. A missing line is no answer. Digits are -log10 of
-/// the relative error, up to what double precision can get. The diagnosis
-/// compares all answers with those of 34 wrong models and of 15 pairs of
-/// them, and says which one explains the answers: none, one or several that
-/// the answers cannot tell apart, or an unknown one.
+/// units, and the quantities to compute are in fixtures/benchmark; its README
+/// explains them. A missing line counts as unanswered. Digits are -log10 of
+/// the relative error, up to what double precision can reach. The diagnosis
+/// compares all answers with those of 34 wrong models and 15 pairs of them. It
+/// names the mistake that explains the answers, or several that these answers
+/// cannot distinguish, or reports that there is none or an unknown one.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking score answers.csv\n  \

@@ -15,7 +15,7 @@ use crate::threads::with_threads;
 /// The value of a flag that is positive and finite.
 ///
 /// # Errors
-/// What is expected, for any other text.
+/// The expectation, for any other text.
 pub fn positive(text: &str) -> Result<f64, &'static str> {
     let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
     number.filter(|x| *x > 0.0).ok_or("expected a positive number")
@@ -86,7 +86,7 @@ pub struct PlotArg {
 }
 
 impl PlotArg {
-    /// Opens the file, where one is given.
+    /// Opens the file, if one is given.
     ///
     /// # Errors
     /// As [`Outputs::open`].
@@ -125,7 +125,7 @@ pub struct BootstrapArgs {
     /// Draws of the bootstrap.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     bootstrap: usize,
-    /// Repetition of the bootstrap.
+    /// Seed of the bootstrap.
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
 }
@@ -149,7 +149,7 @@ pub struct ModelErrorArgs {
 }
 
 impl ModelErrorArgs {
-    /// The error, `usual` where no flag is given.
+    /// The error; `usual` without a flag.
     pub fn or(self, usual: ModelError) -> ModelError {
         usual.or(self.model_bias, self.model_dispersion)
     }

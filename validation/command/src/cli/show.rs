@@ -14,7 +14,7 @@ use crate::terminal::COMMIT;
 use rocking_common::table::columns::SCHEMA;
 use rocking_common::words::{capital, columns, rounded};
 
-/// What every JSON of a command carries.
+/// The fields that every JSON of a command begins with.
 #[derive(Serialize)]
 struct JsonEnvelope<'a, T> {
     schema: u32,
@@ -154,8 +154,8 @@ fn cells(
     found
 }
 
-/// The quantities of a list in the line of a table: those of each struct
-/// behind its first field, which names it.
+/// The quantities of a list in the line of a table. The first field of each
+/// struct names its other quantities.
 fn listed(path: &str, name: &str, all: &[Node]) -> Vec<NamedCell> {
     let mut found = Vec::new();
     for one in all {
@@ -239,7 +239,7 @@ fn cell(value: &Node) -> Option<String> {
     })
 }
 
-/// What the interval of an estimate is called in a sentence.
+/// Name of an interval in a sentence.
 pub const INTERVAL: &str = "95 % interval ";
 
 /// An estimate with its interval in brackets, if it has one, behind what the

@@ -31,15 +31,15 @@ use rocking_report::speed::{export, many};
 /// double-double, and the paper's whole analysis of a suite, in lanes and
 /// one analysis at a time.
 ///
-/// It takes some minutes. Times are processor time; they differ from run to run and from machine to
-/// machine, errors and work do not.
+/// It takes some minutes. Times are processor time and differ from run to run
+/// and machine to machine; errors and work do not.
 #[derive(clap::Args)]
 pub struct SpeedCommand {
-    /// Suite of the throughput measurement: a folder of records, an index,
-    /// or a zip; may be given more than once [default: both embedded suites].
+    /// Suite of the throughput measurement: a folder of records, an index, or
+    /// a zip; may be repeated [default: both embedded suites].
     #[arg(long, value_name = "PATH")]
     suite: Vec<PathBuf>,
-    /// The single analyses alone.
+    /// Only the single analyses.
     #[arg(long, conflicts_with = "suite")]
     singles: bool,
     /// Write one row for each method and case.
@@ -160,7 +160,7 @@ fn records(
     Ok((records, set_aside))
 }
 
-/// What was measured.
+/// The measurements.
 #[derive(Serialize)]
 struct SpeedSummary<'a> {
     isa: &'static str,

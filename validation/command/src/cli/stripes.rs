@@ -20,11 +20,11 @@ use rocking_exchange::ida::IdaTable;
 
 /// Responses at given intensities, of all records of an IDA table.
 ///
-/// At a stripe the response of a record is read from its curve, linear
-/// between analyses; it is infinite from the first overturning on. Where a
-/// record was not run so far, the stripe is open for it: such records are
-/// counted and left out, so that quantiles are too high. The counts of such a
-/// suite mislead a fit: --counts then has the two analyses between which each
+/// At a stripe the response of a record is read from its curve, linear between
+/// analyses, and infinite from the first overturning on. If a record was not
+/// run up to a stripe, the stripe is open for it: such records are counted and
+/// left out, so that quantiles are too high. Counts of such a suite would
+/// mislead a fit, so --counts then writes the two analyses between which each
 /// record exceeds the level, or where its run ends.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
@@ -49,8 +49,8 @@ pub struct StripesCommand {
     #[arg(long, value_name = "E", requires = "counts")]
     at: Option<f64>,
     /// Write which records exceed --at at each intensity, for `rocking
-    /// fragility counts`; `-` is standard output, and nothing else is
-    /// printed then.
+    /// fragility counts`; `-` is standard output, and then nothing else is
+    /// printed.
     #[arg(long, value_name = "OUT.csv", requires = "at")]
     counts: Option<PathBuf>,
     #[command(flatten)]
@@ -97,7 +97,7 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     args.json.show_beside(&outputs, &sentence, &found)
 }
 
-/// The table of what became of each record.
+/// The table of the outcomes of the records.
 fn outcomes(
     table: &IdaTable,
     curves: &[ResponseCurve],

@@ -33,8 +33,8 @@ pub const REPORT: &str = "rocking-report";
 /// Repeats the whole study and writes a report: 15 blocks, two suites,
 /// Figures 1 to 18 with their data, and what was found.
 ///
-/// Without suites of your own it runs on the embedded synthetic ones. `python
-/// -m rocking.recorded motions` writes recorded ones (FEMA P-695).
+/// Without --ordinary and --pulse it uses the embedded synthetic suites.
+/// `python -m rocking.recorded motions` writes recorded motions (FEMA P-695).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking study\n  \
@@ -56,7 +56,7 @@ pub struct StudyCommand {
     /// When a block counts as overturned.
     #[arg(long, value_parser = names::overturning(), default_value = "alpha")]
     overturn: Overturning,
-    /// Width in dimensionless intensity to which arms B and C bisect the
+    /// Width in dimensionless intensity to which grids B and C bisect the
     /// first overturning.
     #[arg(
         long,
@@ -65,7 +65,7 @@ pub struct StudyCommand {
         default_value_t = 1e-4
     )]
     refine: f64,
-    /// Arms of the intensity grid: A the paper's 0.01 g, B refined, C the
+    /// Grids of intensity: A the paper's steps of 0.01 g, B refined, C the
     /// same dimensionless steps for every block.
     #[arg(
         long,
@@ -82,18 +82,18 @@ pub struct StudyCommand {
     #[command(flatten)]
     way: WayArgs,
     /// Folder into which `rocking verify --out` wrote verification.json and
-    /// precision.csv, the results of the declared cases, which the page
-    /// then shows; the folder data of the report if it holds them.
+    /// precision.csv, the results of the reference cases, which the page then
+    /// shows [default: the folder data of the report if it contains them].
     #[arg(long, value_name = "DIR")]
     proof: Option<PathBuf>,
     #[command(flatten)]
     signatures: Signatures,
-    /// Folder of the report: a new or an empty one, or that of an earlier
-    /// report, which is replaced.
+    /// Folder of the report: a new or an empty one, or the folder of an
+    /// earlier report, which is replaced.
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
-    /// Compare with the report in that folder, write nothing, fail where a
-    /// byte differs and say what changed.
+    /// Compare with the report in that folder, write nothing, and fail if a
+    /// byte differs, naming what changed.
     #[arg(long)]
     check: bool,
     /// Print the findings as JSON.
@@ -200,23 +200,23 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
     }
 }
 
-/// Refuses a folder of a report that is neither new nor empty nor that of an
-/// earlier report.
+/// Refuses a folder that is neither new nor empty nor of an earlier report.
 fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    // What a killed run left is not whole, and known by what it left.
+    // A killed run leaves an incomplete folder, which its remains identify.
     if !is_interrupted(out)
         && let Some(name) = output::foreign(out)
     {
         bail!(
-            "cannot write {}: it holds {name}, which no study wrote: expected \
-             a new or an empty folder, or one that `rocking study` wrote",
+            "cannot write {}: it contains {name}, which no study wrote: \
+             expected a new or an empty folder, or one that `rocking study` \
+             wrote",
             out.display()
         );
     }
     Ok(())
 }
 
-/// Fails where the report in `out` is not these files.
+/// Fails if the report in `out` is not these files.
 fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     let name = out.display();
     match stale::stale(out, files)? {

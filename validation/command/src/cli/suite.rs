@@ -29,14 +29,14 @@ enum SuiteAction {
     Export(SuiteExportCommand),
 }
 
-/// Write suites as AT2 files with an index each: the embedded ones, or one
-/// of yours. `--suite DIR/ordinary.csv` reads them back, bit for bit.
+/// Write suites as AT2 files with an index each: the embedded ones, or your
+/// own. `--suite DIR/ordinary.csv` reads them back, bit for bit.
 #[derive(clap::Args)]
 struct SuiteExportCommand {
     /// A new folder, or an empty one.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// A suite of yours: folder, index or zip.
+    /// Your own suite: folder, index or zip.
     #[arg(long, value_name = "PATH")]
     suite: Option<PathBuf>,
     #[command(flatten)]
@@ -45,11 +45,11 @@ struct SuiteExportCommand {
     processing: ProcessingArgs,
 }
 
-/// What was written.
+/// The files that were written.
 #[derive(Serialize)]
 struct SuiteFiles {
     suites: Vec<SuiteFile>,
-    /// What was set aside of a suite of the user's.
+    /// Files set aside of the user's suite.
     set_aside: Option<SetAside>,
 }
 

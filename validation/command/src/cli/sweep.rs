@@ -22,9 +22,9 @@ use rocking_common::suites::remarks::Remarks;
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
 /// tasks, merge.
 ///
-/// A tile is some blocks with all records of the suite. It is written whole
-/// or not at all, and it names its plan and its own sum. Running the same
-/// task again is the answer to any failure: tiles that are done are skipped.
+/// A tile is some blocks with all records of the suite. It is written whole or
+/// not at all, and it states its plan and its checksum. After any failure, run
+/// the same task again: finished tiles are skipped.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking sweep plan --blocks blocks.csv --suite records/ --out sweep\n  \
@@ -46,7 +46,7 @@ enum SweepAction {
 /// Writes a plan and packs the suite into its folder.
 #[derive(clap::Args)]
 struct SweepPlanCommand {
-    /// Table of blocks: alpha,p or width_m,height_m, and where wanted id and
+    /// Table of blocks: alpha,p or width_m,height_m, and optionally id and
     /// eta.
     #[arg(long, value_name = "FILE.csv")]
     blocks: PathBuf,
@@ -75,8 +75,8 @@ struct SweepPlanCommand {
         value_parser = positive
     )]
     step_im: f64,
-    /// Step of the levels in PGA (multiples of g) instead, as the paper has
-    /// it: 0.01.
+    /// Step of the levels in PGA (multiples of g) instead; the paper uses
+    /// 0.01.
     #[arg(
         long,
         value_name = "G",
@@ -84,7 +84,7 @@ struct SweepPlanCommand {
         value_parser = positive
     )]
     step_pga_g: Option<f64>,
-    /// Keep every level, not capacities and fragilities alone.
+    /// Keep every level, not only capacities and fragilities.
     #[arg(long)]
     rows: bool,
     /// Blocks of a tile [default: 1000 over the number of records].
@@ -95,7 +95,7 @@ struct SweepPlanCommand {
     out: PathBuf,
 }
 
-/// Runs the tiles of one task that are not done.
+/// Runs the unfinished tiles of one task.
 #[derive(clap::Args)]
 struct SweepRunCommand {
     /// Folder of the plan.
@@ -110,25 +110,25 @@ struct SweepRunCommand {
     threads: ThreadsArg,
 }
 
-/// Puts the tiles together in the plan's order; names and refuses tiles that
-/// are missing, of another plan or another build of the program, or damaged.
+/// Merges the tiles in the plan's order; refuses tiles that are missing,
+/// damaged, or from another plan or build, and names them.
 #[derive(clap::Args)]
 struct SweepMergeCommand {
     /// Folder of the plan.
     dir: PathBuf,
-    /// What is merged.
+    /// Table to merge.
     #[arg(
         long,
         value_parser = names::named(Content::ALL, Content::name, CONTENTS),
         default_value = Content::Fragilities.name()
     )]
     what: Content,
-    /// Where the table goes, as CSV.
+    /// CSV file of the table.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
 
-/// What the help says of the tables.
+/// Help text of each table.
 const CONTENTS: [&str; 3] = [
     "A row a block, intensity measure and demand",
     "A row a block and record",
@@ -165,7 +165,8 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
             eta: row.eta.unwrap_or(args.eta),
         }),
         _ => bail!(
-            "{}: a sample: expected none, since a sweep makes its own",
+            "{}: a sample: expected none, since a sweep computes its own \
+             capacities",
             row.place
         ),
     };

@@ -26,15 +26,15 @@ use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::suites::inputs::visit;
 use rocking_common::suites::remarks::Remarks;
 
-/// A rigid block against shaking-table tests: how many fates it gets right,
+/// A rigid block against shaking-table tests: how many outcomes it predicts,
 /// its bias, and the scatter that it leaves out.
 ///
-/// TESTS.csv is an index of the motions of the table, one row a test, with
-/// two more columns: the fate of the specimen (overturned, stood or unknown,
-/// or 1, 0 or empty), and the motion that the test repeats (event, or
-/// motion). A column scale is a factor on the motion of the file. Tests of
-/// one motion are no independent draws: the motion is the unit of every
-/// interval. With --p alone the slenderness is fitted to the fates.
+/// TESTS.csv is an index of the motions of the table, one row a test, with two
+/// more columns: the outcome of the specimen (overturned, stood or unknown, or
+/// 1, 0 or empty), and the motion that the test repeats (event, or motion). A
+/// column scale is a factor on the motion of the file. Tests of one motion are
+/// not independent, so the intervals resample motions. With only --p, the
+/// slenderness is fitted to the outcomes.
 #[derive(clap::Args)]
 #[command(mut_arg("p", |arg| arg.help(
     "Frequency parameter p in rad/s; without --alpha the slenderness is \
@@ -47,7 +47,7 @@ pub struct ValidateCommand {
     /// Table of the tests.
     #[arg(value_name = "TESTS.csv")]
     tests: PathBuf,
-    /// Column of the fates.
+    /// Column of the outcomes.
     #[arg(long, value_name = "COLUMN", default_value = FATE_COLUMN)]
     fate: String,
     #[command(flatten)]
@@ -59,7 +59,7 @@ pub struct ValidateCommand {
     /// Equation of motion: Eq. 1 or Eq. 2.
     #[arg(long, value_parser = names::model(), default_value = "nonlinear")]
     model: Model,
-    /// Gravity in m/s2, where sizes or SI records meet it.
+    /// Gravity in m/s2, for sizes and for records in SI units.
     #[arg(
         long,
         value_name = "G",
@@ -67,9 +67,9 @@ pub struct ValidateCommand {
         default_value_t = STANDARD_GRAVITY_M_S2
     )]
     gravity: f64,
-    /// An intensity measure that predicts the same fates by itself: pga,
+    /// An intensity measure that predicts the same outcomes by itself: pga,
     /// pgv, pgd, arias, cav, pgv-d575, sa:T, avgsa:T1,T2,.. (periods in s) or
-    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p); again for each one [default:
+    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p); repeat it for each [default:
     /// pga, pgv and avgsa:rocking].
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,
@@ -81,8 +81,7 @@ pub struct ValidateCommand {
     bootstrap: BootstrapArgs,
     #[command(flatten)]
     threads: ThreadsArg,
-    /// Folder of a page with three figures and its numbers: a new or an
-    /// empty one.
+    /// Folder for a page with three figures; must be new or empty.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -18,20 +18,20 @@ use rocking_report::diff::{self, ResultFiles};
 // With `--out` it writes the results to OUT/data/verification.json, and to
 // OUT/data/precision.csv what single, double and double-double precision
 // reach.
-/// Runs the declared cases against closed forms and references.
+/// Runs the reference cases against closed forms and other solutions.
 #[derive(clap::Args)]
 pub struct VerifyCommand {
-    /// Run this family alone.
+    /// Run only this family.
     #[arg(long, conflicts_with = "out")]
     family: Option<String>,
     /// Run the long cases as well.
     #[arg(long, conflicts_with = "out")]
     full: bool,
-    /// Compare with the results in OUT, write nothing, fail where they
+    /// Compare with the results in OUT, write nothing, and fail if they
     /// differ.
     #[arg(long, requires = "out")]
     check: bool,
-    /// Folder of the reports; without it nothing is written.
+    /// Folder of the reports; without it, nothing is written.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -119,7 +119,7 @@ fn stale(path: &Path) -> Failure {
     ))
 }
 
-/// What the cases came to.
+/// Results of the cases.
 #[derive(Serialize)]
 struct VerifySummary<'a> {
     cases: Vec<CaseMargin<'a>>,

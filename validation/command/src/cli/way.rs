@@ -31,7 +31,7 @@ enum EngineName {
 }
 
 impl WayArgs {
-    /// The way asked for.
+    /// The execution of these flags.
     ///
     /// # Errors
     /// [`Failure`] for an instruction set that this machine has not, or one
@@ -39,9 +39,9 @@ impl WayArgs {
     pub fn way(self) -> Result<Execution, Failure> {
         match (self.engine, self.isa) {
             (Some(EngineName::Scalar), None) => Ok(Execution::OneByOne),
-            (Some(EngineName::Scalar), Some(_)) => bail!(
-                "--isa is for --engine lanes; scalar has no choice of it"
-            ),
+            (Some(EngineName::Scalar), Some(_)) => {
+                bail!("--isa is for --engine lanes, not for scalar")
+            }
             (_, None) => Ok(Execution::default()),
             (_, Some(level)) => isa(level).map(Execution::Lanes),
         }

@@ -1,4 +1,4 @@
-//! What the tables of a sweep hold.
+//! The tables of a sweep.
 
 use super::plan::SweepPlan;
 use rocking::names::named;
@@ -7,7 +7,7 @@ use rocking_common::table::columns::{
 };
 
 named! {
-    /// What a file of a tile holds.
+    /// Content of a tile's file.
     pub enum Content: "content" {
         /// A row a block, intensity measure and demand.
         Fragilities = "fragilities",
@@ -19,7 +19,7 @@ named! {
 }
 
 impl Content {
-    /// What a sweep keeps.
+    /// Tables that a sweep keeps.
     pub fn kept(plan: &SweepPlan) -> Vec<Self> {
         let is_kept = |what: &Self| plan.rows || *what != Self::Rows;
         Self::ALL.into_iter().filter(is_kept).collect()

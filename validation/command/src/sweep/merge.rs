@@ -32,7 +32,7 @@ pub fn merge(
         stop::point();
         let text = tile::read(planned, content, tile);
         match text {
-            // The header stands once.
+            // The header is written once.
             Ok(text) if tile == 0 => output.add(&text)?,
             Ok(text) => output.add(body(&text))?,
             Err(state) => flaws.push((tile, state)),

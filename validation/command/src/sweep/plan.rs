@@ -25,7 +25,7 @@ const SCHEMA: u32 = 6;
 /// Replicates of the bootstrap of a fragility's parameters.
 pub(super) const REPLICATES: usize = 400;
 
-/// Curves of a tile, about, where the number of its blocks is not given.
+/// Curves of a tile, approximately, if the number of its blocks is not given.
 const TILE_CURVES: usize = 1000;
 
 /// Name of the suite in the plan's folder.
@@ -48,7 +48,7 @@ pub struct SweepPlan {
     pub blocks: Vec<SweepBlock>,
     /// Study components: name and SHA-256 of the packed file.
     pub records: Vec<(String, String)>,
-    /// Their earthquakes; empty where the suite does not say them.
+    /// Their earthquakes; empty if the suite does not state them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     events: Vec<String>,
     /// Blocks of a tile; the last tile may have fewer.
@@ -99,7 +99,7 @@ pub struct SweepFolder {
     pub block_samples: usize,
 }
 
-/// What a plan is made of.
+/// Input of a plan.
 pub struct SweepRequest<'a> {
     /// The blocks.
     pub blocks: &'a [SweepBlock],
@@ -123,9 +123,9 @@ impl SweepPlan {
     /// Writes a plan and packs the suite into its folder.
     ///
     /// # Errors
-    /// [`Failure`] for a block or a demand that comes again, where the folder
-    /// has another plan already, and where a record cannot be packed or a file
-    /// cannot be written.
+    /// [`Failure`] for a repeated block or demand, if the folder has another
+    /// plan already, and if a record cannot be packed or a file cannot be
+    /// written.
     pub fn write(
         wanted: &SweepRequest<'_>,
         folder: &Path,
@@ -178,7 +178,7 @@ impl SweepPlan {
         let text = plan.text();
         ensure!(
             there.is_none_or(|there| there == text),
-            "{}: holds another plan; expected an empty folder, or the \
+            "{}: contains another plan; expected an empty folder, or the \
              same plan",
             folder.display()
         );
@@ -196,7 +196,7 @@ impl SweepPlan {
         Ok(plan)
     }
 
-    /// The records by earthquake, where the suite says it.
+    /// The records by earthquake, if the suite states it.
     pub fn clusters(&self) -> Clusters {
         match self.events.as_slice() {
             [] => Clusters::singletons(self.records.len()),
@@ -220,7 +220,7 @@ impl SweepPlan {
         tiles.nth(tile).unwrap_or_default()
     }
 
-    /// What is run of a block.
+    /// The analysis of a block.
     ///
     /// # Errors
     /// [`Failure`] for a block out of range.
@@ -254,7 +254,7 @@ impl SweepFolder {
     /// Reads the plan of a folder.
     ///
     /// # Errors
-    /// [`Failure`] where there is none, and for another form.
+    /// [`Failure`] if there is none, and for another form.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let path = folder.join("plan.json");
         let text = input::text(&path)?;
@@ -304,7 +304,7 @@ impl SweepFolder {
         Ok(records)
     }
 
-    /// Where a tile lies.
+    /// Path of a tile.
     pub fn tile_path(&self, content: super::Content, tile: usize) -> PathBuf {
         let name = format!("{}-{tile:05}.csv", content.name());
         self.folder.join("tiles").join(name)

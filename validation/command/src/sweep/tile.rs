@@ -50,7 +50,7 @@ pub(super) fn read(
     use TileState::{Damaged, Foreign, Missing};
     let path = planned.tile_path(content, tile);
     let Ok(text) = fs::read_to_string(&path) else {
-        // A file that is there and is no text was written by nobody here.
+        // A file that exists but is not text was not written by this program.
         return Err(if path.exists() { Damaged } else { Missing });
     };
     let at = text.trim_end().rfind('\n').ok_or(Damaged)? + 1;
@@ -89,9 +89,8 @@ pub fn run(
     let plan = &planned.plan;
     ensure!(
         plan.software == software,
-        "{}: a plan of {}: expected one of this program, {software}, or \
-         a run by the program that planned: tiles of two builds may \
-         differ",
+        "{}: a plan of {}: expected a plan of this program, {software}; \
+         tiles of two builds may differ",
         planned.folder.display(),
         plan.software
     );
@@ -133,15 +132,15 @@ pub fn run(
     Ok(())
 }
 
-/// What is kept of the curves of a block.
+/// Results of the curves of a block.
 struct TileBlock<'a> {
     block: &'a SweepBlock,
     curves: Vec<TileCurve>,
-    /// Cells of the levels, where the plan keeps them.
+    /// Cells of the levels, if the plan keeps them.
     levels: Vec<[String; 6]>,
 }
 
-/// What is kept of a curve.
+/// Results of a curve.
 struct TileCurve {
     record: String,
     /// From PGA/(g tan alpha) to p PGV/(g tan alpha).
@@ -260,8 +259,8 @@ fn text(plan: &SweepPlan, content: Content, all: &[TileBlock<'_>]) -> String {
 
 /// Values reached, shift, and the median and dispersion of the shifted
 /// lognormal by maximum likelihood with their 95 % intervals of the bootstrap,
-/// of earthquakes drawn where the plan has them;
-/// empty where some record never reaches the demand.
+/// of earthquakes if the plan has them; empty if some record never reaches the
+/// demand.
 fn fragility(
     plan: &SweepPlan,
     name: &[String; 3],

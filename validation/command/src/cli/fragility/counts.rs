@@ -27,21 +27,20 @@ use rocking_exchange::read::{Cells, no_csv, reader, rows};
 /// Fits a lognormal fragility to counts: how many of n records exceeded a
 /// level, or overturned, at each intensity.
 ///
-/// Maximum likelihood of binomial counts, with 95 % intervals. Counts alone
-/// do not say whether stripes share records: their intervals are those of the
-/// likelihood, which take the stripes as independent. Of the table that
-/// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
-/// which draws records, or earthquakes where the table says them; and where a
-/// record was not run to every intensity, the likelihood is that of the two
-/// intensities between which each record exceeds the level.
+/// Maximum likelihood of binomial counts, with 95 % intervals. Counts do not
+/// say whether stripes share records, so their intervals, from the likelihood,
+/// take the stripes as independent. For the table that `rocking stripes
+/// --counts` writes, the intervals are from a bootstrap, which draws records,
+/// or earthquakes if the table states them. If a record was not run at every
+/// intensity, the likelihood uses the two intensities between which each
+/// record first exceeds the level.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
-    "Draw the fit with the shares that exceeded; of outcomes with its band"
+    "Draw the fit with the shares that exceeded; for outcomes also its band"
 )))]
 pub(super) struct FragilityCountsCommand {
-    /// Table of counts, columns intensity,exceeded,n, or of outcomes,
-    /// columns intensity,record,exceeded and event where known; `-` is
-    /// standard input.
+    /// Table of counts, columns intensity,exceeded,n, or of outcomes, columns
+    /// intensity,record,exceeded and event if known; `-` is standard input.
     #[arg(long, value_name = "FILE.csv")]
     counts: PathBuf,
     /// Shift IM_R, not negative.
@@ -83,12 +82,12 @@ pub(super) fn run_fragility_counts(
     args.json.show_beside(&outputs, &sentence, &found)
 }
 
-/// What a table says of stripes.
+/// A table of stripes.
 #[derive(Debug)]
 pub enum CountTable {
-    /// Counts alone.
+    /// Only counts.
     Stripes(Vec<Stripe>),
-    /// What became of each record.
+    /// The outcome of each record.
     Records(Vec<RecordOutcome>, Clusters),
 }
 
@@ -107,7 +106,7 @@ impl CountTable {
         }
     }
 
-    /// The fits to draws of the records; none of counts alone.
+    /// The fits to draws of the records; `None` for counts.
     pub(super) fn sampled(
         &self,
         shift: f64,
@@ -135,7 +134,8 @@ impl CountTable {
         Ok(fragilities_svg(&[fit], &[points], words))
     }
 
-    /// The counts; none where a record was not run to every intensity.
+    /// The counts; `None` if a record was not run at every intensity.
+    #[must_use]
     pub fn stripes(&self) -> Option<Cow<'_, [Stripe]>> {
         Some(match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),

@@ -30,7 +30,7 @@ pub(super) struct FragilityExportCommand {
     /// Format of the file.
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     format: &'static ExchangeFormat,
-    /// The file; `-` is standard output, and nothing else is printed then.
+    /// The file; `-` is standard output, and then nothing else is printed.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
@@ -67,7 +67,7 @@ struct LimitStateRow<'a> {
 ///
 /// # Errors
 /// [`Failure`] for input or a place that is refused, and for fragilities that
-/// the format does not hold; nothing is written then.
+/// the format cannot represent; nothing is written then.
 pub(super) fn run_fragility_export(
     args: &FragilityExportCommand,
 ) -> Result<(), Failure> {

@@ -30,8 +30,8 @@ use rocking_exchange::sample::SampleFile;
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
 /// an IDA.
 ///
-/// With a shift IM_R the fit is to the capacities above it. Eqs. 5 to 7 stand
-/// beside the fit: what the unshifted statistics give instead.
+/// With a shift IM_R the fit is to the capacities above it. Eqs. 5 to 7 are
+/// printed beside the fit: they estimate the same from unshifted statistics.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["sample", "ida"]))]
@@ -40,14 +40,14 @@ use rocking_exchange::sample::SampleFile;
 )))]
 pub(super) struct FragilityFitCommand {
     /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
-    /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE`
-    /// where the earthquake is known; `-` is standard input.
+    /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE` if
+    /// the earthquake is known; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     #[command(flatten)]
     ida: IdaArgs,
-    /// Intensity measure of --ida [default: pga], or of a sample that does
-    /// not say it.
+    /// Intensity measure of --ida [default: pga], or of a sample that does not
+    /// state it.
     #[arg(long, value_name = "MEASURE")]
     im: Option<IntensityMeasure>,
     #[command(flatten)]
@@ -61,10 +61,10 @@ pub(super) struct FragilityFitCommand {
     #[arg(long, default_value_t = 1.0)]
     c: f64,
     /// Bootstrap samples for intervals; earthquakes are drawn with all their
-    /// records, where the sample or the IDA says them.
+    /// records if the sample or the IDA states them.
     #[arg(long, value_name = "N")]
     bootstrap: Option<usize>,
-    /// Repetition of the bootstrap.
+    /// Seed of the bootstrap.
     #[arg(
         long,
         value_name = "S",
@@ -72,7 +72,7 @@ pub(super) struct FragilityFitCommand {
         default_value_t = 0
     )]
     seed: u64,
-    /// Intensities at which the probability gets its 95 % band.
+    /// Intensities at which to compute the 95 % band of the probability.
     #[arg(
         long,
         value_name = "LEVELS",
@@ -80,7 +80,7 @@ pub(super) struct FragilityFitCommand {
         allow_hyphen_values = true
     )]
     band: Option<EdpLevels>,
-    /// The band as a table.
+    /// Write the band as a table.
     #[arg(long, value_name = "FILE.csv", requires_all = ["band", "sample"])]
     band_csv: Option<PathBuf>,
     #[command(flatten)]
@@ -126,7 +126,7 @@ impl FitArgs {
 
 #[derive(Serialize)]
 struct OfSample {
-    /// What the file says that its values are.
+    /// What the values are, by the file.
     sample_of: Option<String>,
     unit: String,
     #[serde(flatten)]
@@ -278,7 +278,7 @@ fn unit(
     Ok(measure.unwrap_or_else(stated))
 }
 
-/// The band as a table.
+/// Write the band as a table.
 fn csv(band: &Band) -> String {
     let mut table = Table::of(&BAND);
     for point in &band.points {

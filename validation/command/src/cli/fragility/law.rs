@@ -10,8 +10,8 @@ use crate::failure::Failure;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 /// Fragility of a block in AvgSA(0.15 to 1.0 times 2 pi/p) by one law for all
-/// blocks and ground motions, without an analysis, with the errors of the law
-/// and of the model.
+/// blocks and ground motions, without an analysis. It includes the errors of
+/// the law and of the model.
 #[derive(clap::Args)]
 pub(super) struct FragilityLawCommand {
     #[command(flatten)]

@@ -30,15 +30,15 @@ use crate::input;
 use rocking_common::paper::RESTITUTION;
 use rocking_exchange::sample::SampleSetting;
 
-/// Where fragilities come from, and the blocks they belong to.
+/// Sources of fragilities, and the blocks they belong to.
 #[derive(clap::Args)]
 pub struct SourceArgs {
-    /// Sample of capacities; again for each limit state, by rising damage.
+    /// Sample of capacities; repeat it for each limit state, by rising damage.
     #[arg(long, value_name = "FILE")]
     sample: Vec<PathBuf>,
     #[command(flatten)]
     ida: IdaArgs,
-    /// Table of counts, intensity,exceeded,n; again for each limit state.
+    /// Table of counts, intensity,exceeded,n; repeat it for each limit state.
     #[arg(
         long,
         value_name = "FILE.csv",
@@ -46,7 +46,7 @@ pub struct SourceArgs {
         conflicts_with_all = ["sample", "ida"]
     )]
     counts: Vec<PathBuf>,
-    /// By the law of AvgSA at these EDP levels; inf: overturning.
+    /// The law of AvgSA at these EDP levels; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",
@@ -71,7 +71,7 @@ pub struct SourceArgs {
     /// Name of the block [default: from alpha and p].
     #[arg(long, value_name = "NAME")]
     id: Option<Id>,
-    /// Name of the limit state; again for each [default: exceeded, LS1, ..].
+    /// Name of a limit state; repeat it [default: exceeded, LS1, ..].
     #[arg(long, value_name = "NAME")]
     limit_state: Vec<Id>,
     /// Gravity in m/s2.
@@ -95,7 +95,7 @@ pub struct IdaArgs {
         conflicts_with = "sample"
     )]
     pub ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or by commas; inf: overturning.
+    /// EDP levels of --ida, FIRST:LAST:STEP or a list; inf: overturning.
     #[arg(
         long,
         value_name = "LEVELS",
@@ -104,7 +104,7 @@ pub struct IdaArgs {
         allow_hyphen_values = true
     )]
     at: Option<EdpLevels>,
-    /// Which capacity is made of several crossings [default: median].
+    /// Capacity of a record with several crossings [default: median].
     #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
 }
@@ -120,8 +120,8 @@ impl IdaArgs {
 /// Whether the levels of an IDA have one dispersion.
 #[derive(clap::Args)]
 pub(super) struct DispersionArg {
-    /// Dispersion of the fragilities of --ida; a common one is fitted by
-    /// maximum likelihood, and their curves do not cross.
+    /// Dispersion of the fragilities of --ida; with a common one, fitted by
+    /// maximum likelihood, their curves do not cross.
     #[arg(
         long,
         value_parser = names::named(
@@ -135,7 +135,7 @@ pub(super) struct DispersionArg {
     pub(super) dispersion: DispersionRule,
 }
 
-/// What is fitted, or the surface that was.
+/// The values of a level.
 enum LevelValues {
     Sample(CensoredSample, Clusters),
     Counts(CountTable),
@@ -148,9 +148,9 @@ pub type SampledFragility = (Lognormal, Option<BootstrapFits>);
 /// The fragilities of a block, and what draws make of each limit state.
 type BlockDraws = (BlockFragility, Vec<Option<BootstrapFits>>);
 
-/// Where one limit state comes from.
+/// Source of one limit state.
 struct FragilityLevel {
-    /// The file, or what stands for it.
+    /// The file, or the flag in its place.
     place: String,
     /// The measure, or why there is none.
     im: Result<IntensityMeasure, String>,
@@ -223,7 +223,9 @@ impl SourceArgs {
                 "{place}: a sample of {of}: expected an intensity measure"
             ),
             None => {
-                format!("{place}: it does not say its measure: expected --im")
+                format!(
+                    "{place}: it does not state its measure: expected --im"
+                )
             }
         });
         let origin = match (file.of(), &im) {
@@ -291,17 +293,17 @@ impl SourceArgs {
     }
 }
 
-/// The measure that is asked of a table of `rocking ida`, PGA where none is.
+/// The measure for a table of `rocking ida`, by default PGA.
 ///
 /// # Errors
-/// [`Failure`] for a measure that no table holds.
+/// [`Failure`] for a measure that tables do not have.
 pub(super) fn in_table(
     im: Option<&IntensityMeasure>,
 ) -> Result<Intensity, Failure> {
     let im = im.unwrap_or(&IntensityMeasure::PGA);
     im.dimensionless().ok_or_else(|| {
         Failure::input(format!(
-            "--im {im}: a table of `rocking ida` holds pga and pgv: expected \
+            "--im {im}: a table of `rocking ida` has pga and pgv: expected \
              one of them, or --sample with a file of `rocking capacities \
              --im {im} --suite`"
         ))
@@ -424,13 +426,13 @@ impl FragilitySource {
         }
     }
 
-    /// The fragilities in the unit of a hazard curve's measure; where that is
-    /// their own, in that of their values. Where there are several, they have
-    /// names.
+    /// The fragilities in the unit of a hazard curve's measure; if that is
+    /// their own measure, in the unit of their values. If there are several,
+    /// they have names.
     ///
     /// # Errors
-    /// [`Failure`] for values that make no fit, or are of another measure,
-    /// and for a block where the unit is that of the values.
+    /// [`Failure`] for values that make no fit, or are of another measure, and
+    /// for a block if the unit is the values' own.
     pub fn against(
         &self,
         im: &HazardMeasure,
@@ -494,8 +496,8 @@ impl FragilitySource {
     /// of the model.
     ///
     /// # Errors
-    /// [`Failure`] for values that make no fit, and for a block that they do
-    /// not hold for.
+    /// [`Failure`] for values that make no fit, and for a block to which they
+    /// do not apply.
     pub fn fragilities(
         &self,
         options: &FitOptions,

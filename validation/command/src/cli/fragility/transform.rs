@@ -37,7 +37,7 @@ pub(super) struct FragilityTransformCommand {
 /// Runs `rocking fragility transform`.
 ///
 /// # Errors
-/// [`Failure`] where the result cannot be printed.
+/// [`Failure`] if the result cannot be printed.
 pub(super) fn run_fragility_transform(
     args: &FragilityTransformCommand,
 ) -> Result<(), Failure> {

@@ -14,8 +14,8 @@ use rocking_common::table::{Table, columns::FORCES};
 #[derive(clap::Args)]
 pub(super) struct ForcesArgs {
     /// Share of the analyses that need more friction |H|/N at the pivot than
-    /// each of these coefficients. The model does not slide: above this share
-    /// it says more than it knows. Each analysis is run once more, whole.
+    /// each of these coefficients. The model does not slide, so its results
+    /// are not valid for these analyses. Each analysis is run again in full.
     #[arg(
         long,
         value_name = "MU,..",
@@ -30,7 +30,7 @@ pub(super) struct ForcesArgs {
 }
 
 impl ForcesArgs {
-    /// Runs what is asked for: nothing, if nothing is.
+    /// Computes the forces if a flag requests them.
     pub(super) fn pivot(
         &self,
         records: &[NormalisedRecord],

@@ -14,12 +14,12 @@ use super::{RecordFinding, RecordListing};
 use crate::failure::{Failure, bail, ensure};
 use rocking_draw::figures::of_result::record_svg;
 
-/// What is asked for beside the list.
+/// Measures to compute beside the list.
 #[derive(clap::Args)]
 pub(super) struct MeasureArgs {
-    /// Intensity measures: PGD, Arias intensity, cumulative absolute
-    /// velocity, durations, mean period, response spectrum at 5 % damping;
-    /// of pairs also the geometric mean and RotD.
+    /// Intensity measures: PGD, Arias intensity, cumulative absolute velocity,
+    /// durations, mean period, response spectrum at 5 % damping; for pairs
+    /// also the geometric mean and RotD.
     #[arg(long)]
     intensity: bool,
     /// Periods of the response spectrum in s.
@@ -50,7 +50,7 @@ pub(super) struct MeasureArgs {
     )]
     rotd: Vec<f64>,
     /// Strong velocity pulses in pairs, by Shahi and Baker (2014). Pairs are
-    /// those of a suite, or two files alone.
+    /// those of a suite, or exactly two files.
     #[arg(long)]
     pulses: bool,
 }
@@ -58,7 +58,7 @@ pub(super) struct MeasureArgs {
 /// The component that is a record's own.
 const OWN: &str = "own";
 
-/// What was measured: a row a record, and two a pair.
+/// The measures: one row per record, two per pair.
 #[derive(Serialize)]
 pub(super) struct RecordMeasures {
     /// The measure that is the average over the periods of a block.
@@ -99,10 +99,10 @@ struct MeasureRefusal {
 }
 
 impl MeasureArgs {
-    /// Measures what is asked for, if anything is.
+    /// Computes the measures, if any flag requests them.
     ///
     /// # Errors
-    /// [`Failure`] for a period that is none, or pulses without a pair.
+    /// [`Failure`] for an invalid period, or pulses without a pair.
     pub(super) fn run(
         &self,
         records: &[RecordListing],
@@ -190,7 +190,7 @@ impl MeasureArgs {
 }
 
 impl RecordMeasures {
-    /// What was found; why there is nothing goes into the list.
+    /// The result; the reason for none goes into the list.
     fn take<T>(
         &mut self,
         of: &str,
@@ -239,7 +239,8 @@ impl RecordMeasures {
 /// The name of a pair, and its components.
 type NamedPair<'a> = (String, [&'a Accelerogram; 2]);
 
-/// Pairs by name, the study's component first; two records alone are one.
+/// Pairs by name, the study's component first; exactly two records are one
+/// pair.
 fn pairs(records: &[RecordListing]) -> Vec<NamedPair<'_>> {
     let mut by_name: BTreeMap<&str, Vec<&Accelerogram>> = BTreeMap::new();
     let mut names = Vec::new();

@@ -123,7 +123,7 @@ fn the_folder_holds_a_page_and_its_numbers() {
     let page = read("index.html");
     assert_eq!(page.matches("<svg").count(), 3);
     let share = 100.0 * number(&found["computed"]["right"]["point"]);
-    assert!(page.contains(&format!("gets {share:.1} % (")), "{page}");
+    assert!(page.contains(&format!("predicts {share:.1} % (")), "{page}");
     assert!(page.contains("on the safe side"), "{page}");
     let kept: Value = serde_json::from_str(&read("tests.json")).unwrap();
     assert_eq!(kept["computed"], found["computed"]);

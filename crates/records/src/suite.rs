@@ -82,7 +82,7 @@ impl<M> SuiteMember<M> {
 
 impl SuiteMember {
     /// A record of `file`, without a pair.
-    pub(crate) fn of(record: Record, file: String) -> Self {
+    pub fn of(record: Record, file: String) -> Self {
         Self {
             accelerogram: record.accelerogram,
             file,

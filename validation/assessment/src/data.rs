@@ -8,7 +8,7 @@ use rocking_exchange::{BlockFragility, ExchangeFormat, Id, LimitState};
 use rocking_procedures::assess::{Assessment, ObjectAssessment};
 use serde::Serialize;
 
-use crate::About;
+use crate::{About, Provenance};
 
 /// Version of the layout of `assess.json`.
 const SCHEMA: u32 = 1;
@@ -19,13 +19,7 @@ struct ResultFile<'a, T> {
     version: &'static str,
     #[serde(flatten)]
     found: &'a T,
-    provenance: Vec<Provenance<'a>>,
-}
-
-#[derive(Serialize)]
-struct Provenance<'a> {
-    what: &'a str,
-    is: &'a str,
+    provenance: &'a [Provenance],
 }
 
 /// All numbers of a result with its provenance, as JSON.
@@ -33,9 +27,7 @@ struct Provenance<'a> {
 /// # Errors
 /// None in practice.
 pub fn json<T: Serialize>(found: &T, about: &About) -> anyhow::Result<String> {
-    let provenance = about.provenance.iter();
-    let provenance =
-        provenance.map(|(what, is)| Provenance { what, is }).collect();
+    let provenance = &about.provenance;
     let version = env!("CARGO_PKG_VERSION");
     let file = ResultFile { schema: SCHEMA, version, found, provenance };
     Ok(serde_json::to_string_pretty(&file)? + "\n")

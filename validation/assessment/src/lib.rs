@@ -16,18 +16,16 @@ use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::ExchangeFormat;
 use rocking_procedures::ModelError;
-use rocking_procedures::assess::{
-    Alternative, Assessment, Damage, ObjectAssessment,
-};
+use rocking_procedures::assess::{Assessment, Damage, ObjectAssessment};
 use rocking_procedures::fragility::hazard::Hazard;
 use rocking_statistics::Interval;
 use rocking_synthesis::SuiteKind;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use data::json;
 pub use words::{once_in, text};
 
-use words::{answer_cells, answer_heads, measure, short};
+use words::{WordTable, measure, short};
 
 /// The page; it is written last, so if it exists, all files do.
 pub const PAGE: &str = "index.html";
@@ -48,7 +46,14 @@ pub struct About {
     /// Origin of the records, in a sentence.
     pub ground: String,
     /// Names and values that are needed to make the page again.
-    pub provenance: Vec<(String, String)>,
+    pub provenance: Vec<Provenance>,
+}
+
+/// A fact that is needed to make a page again.
+#[derive(Clone, Debug, Serialize)]
+pub struct Provenance {
+    what: String,
+    is: String,
 }
 
 impl About {
@@ -58,7 +63,9 @@ impl About {
         known: impl IntoIterator<Item = (&'a str, Option<String>)>,
     ) -> Self {
         let known = known.into_iter();
-        let known = known.filter_map(|(what, is)| Some((what.into(), is?)));
+        let known = known.filter_map(|(what, is)| {
+            Some(Provenance { what: what.into(), is: is? })
+        });
         Self { ground, provenance: known.collect() }
     }
 }
@@ -134,8 +141,6 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
         [one] => format!("Rocking of {}", one.id),
         all => format!("Rocking of {} objects", all.len()),
     };
-    let ranked = found.objects.iter().map(|one| words::ranked(found, one));
-    let ranked: Vec<Vec<String>> = ranked.collect();
     let introduction = html! {
         "Each object is modelled as a free-standing rigid block. It begins \
          to rock when the ground accelerates by g tan(alpha) or more; the \
@@ -146,7 +151,7 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
         section {
             h2 { "Which object first" }
             (charts::sketch(&found.objects))
-            (table("All objects", &words::heads(found), &ranked))
+            (table("All objects", &words::objects(found)))
             (sliding(found))
         }
         @if !found.together.is_empty() { (together(found)) }
@@ -184,7 +189,7 @@ fn document(
     page.into_string() + "\n"
 }
 
-fn table(label: &str, heads: &[String], rows: &[Vec<String>]) -> Markup {
+fn table(label: &str, (heads, rows): &WordTable) -> Markup {
     let body = html! {
         table.cards {
             thead { tr { @for head in heads { th scope="col" { (head) } } } }
@@ -235,14 +240,11 @@ fn sliding(found: &Assessment) -> Markup {
 }
 
 fn together(found: &Assessment) -> Markup {
-    let heads = answer_heads(found, "Objects damaged by one earthquake", "");
-    let row = |row: &rocking_procedures::assess::JointDamage| {
-        let first = format!("{} or more", row.at_least);
-        let mut cells = vec![first];
-        cells.extend(answer_cells(&row.answer));
-        cells
-    };
-    let rows: Vec<Vec<String>> = found.together.iter().map(row).collect();
+    let heads = ("Objects damaged by one earthquake", "");
+    let rows = found.together.iter();
+    let rows =
+        rows.map(|row| (format!("{} or more", row.at_least), &row.answer));
+    let all = words::answers(found, heads, rows);
     html! {
         section {
             h2 { "Together" }
@@ -260,25 +262,18 @@ fn together(found: &Assessment) -> Markup {
                     "."
                 }
             }
-            (table("Objects damaged together", &heads, &rows))
+            (table("Objects damaged together", &all))
         }
     }
 }
 
 fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
     let chart = charts::curves(found, one, k).figure(String::new());
-    let heads = answer_heads(found, "Assumption", " damage");
-    let line = |words: String, answer: &_| {
-        let mut cells = vec![words];
-        cells.extend(answer_cells(answer));
-        cells
-    };
     let own = format!("as above: coefficient of restitution {}", one.eta);
-    let mut rows = vec![line(own, &one.answer)];
-    let other = |other: &Alternative| {
-        line(other.assumption.to_string(), &other.answer)
-    };
-    rows.extend(one.alternatives.iter().map(other));
+    let others = one.alternatives.iter();
+    let others = others.map(|o| (o.assumption.to_string(), &o.answer));
+    let rows = std::iter::once((own, &one.answer)).chain(others);
+    let all = words::answers(found, ("Assumption", " damage"), rows);
     html! {
         section {
             h2 { (one.id) }
@@ -316,7 +311,7 @@ fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
                 }
             }
             h3 { "What changes the answer" }
-            (table("Answers under other assumptions", &heads, &rows))
+            (table("Answers under other assumptions", &all))
             (remarks(found, one))
         }
     }
@@ -456,7 +451,7 @@ fn provenance(about: &About, files: &[&str]) -> Markup {
         section {
             h2 { "Provenance" }
             dl {
-                @for (what, is) in &about.provenance {
+                @for Provenance { what, is } in &about.provenance {
                     dt { (what) } dd { (is) }
                 }
             }

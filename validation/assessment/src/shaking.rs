@@ -14,10 +14,9 @@ use rocking_draw::grid::Grid;
 use rocking_draw::page::inline;
 use rocking_procedures::shaking::TestComparison;
 
-use words::TestsTable;
 pub use words::text;
 
-use crate::{About, PAGE, bytes, data, document, provenance};
+use crate::{About, PAGE, bytes, data, document, provenance, table};
 
 /// The name of its JSON.
 const JSON: &str = "tests.json";
@@ -77,10 +76,6 @@ pub fn page(found: &TestComparison, about: &About) -> String {
         (provenance(about, &[JSON, CSV]))
     };
     document(&title, &words::first(found), &introduction, &sections)
-}
-
-fn table(label: &str, (heads, rows): &TestsTable) -> Markup {
-    crate::table(label, heads, rows)
 }
 
 /// A figure with its number and its words.

@@ -39,16 +39,13 @@ pub fn once_in(years: &Estimate) -> String {
 
 /// A number of two significant digits, with commas between its thousands.
 fn thousands(x: f64) -> String {
-    let digits = match x.is_finite() {
-        true => rounded(x, 2).to_string(),
-        false => return "open".to_owned(),
-    };
-    let whole = digits.find('.').unwrap_or(digits.len());
-    let comma = |(k, c)| match k > 0 && k < whole && (whole - k) % 3 == 0 {
-        true => format!(",{c}"),
-        false => String::from(c),
-    };
-    digits.chars().enumerate().map(comma).collect()
+    match rounded(x, 2) {
+        x if x.is_infinite() => "open".to_owned(),
+        x if x >= 1e3 => {
+            format!("{},{:03}", thousands((x / 1e3).floor()), x % 1e3)
+        }
+        x => x.to_string(),
+    }
 }
 
 /// Mean return period of damage in years, with its interval.
@@ -70,10 +67,7 @@ pub(crate) fn measure(found: &Assessment) -> String {
 pub(crate) fn symbol(im: &IntensityMeasure) -> String {
     match im {
         IntensityMeasure::Axis(intensity) => intensity.row().symbol.to_owned(),
-        other => {
-            let words = other.words();
-            words.split(" (").next().unwrap_or_default().to_owned()
-        }
+        other => other.words().split(" (").next().unwrap_or("").to_owned(),
     }
 }
 
@@ -81,9 +75,7 @@ pub(crate) fn symbol(im: &IntensityMeasure) -> String {
 pub(crate) fn damage(one: &ObjectAssessment) -> String {
     match one.damage {
         Damage::Overturning => "overturning".to_owned(),
-        Damage::Rotation(ratio) => {
-            format!("a rotation above {ratio} alpha")
-        }
+        Damage::Rotation(ratio) => format!("a rotation above {ratio} alpha"),
     }
 }
 
@@ -116,13 +108,11 @@ pub(crate) fn first(found: &Assessment) -> String {
 
 /// Origin of the intervals.
 pub(crate) fn held(found: &Assessment) -> String {
-    let error = found.model_error;
-    if error.is_none() {
-        return "from the choice of the records".into();
-    }
-    format!(
-        "from the choice of the records and the error of the model: {error}"
-    )
+    let model = match found.model_error {
+        none if none.is_none() => String::new(),
+        error => format!(" and the error of the model: {error}"),
+    };
+    format!("from the choice of the records{model}")
 }
 
 /// Effect of recorded motions, in words.
@@ -144,7 +134,7 @@ pub(crate) fn recorded(found: &Assessment) -> Option<String> {
 }
 
 /// The heads of the table of all objects.
-pub(crate) fn heads(found: &Assessment) -> Vec<String> {
+fn heads(found: &Assessment) -> Vec<String> {
     let mut heads = answer_heads(found, "Object", " damage");
     heads.insert(1, "Damage".to_owned());
     if found.objects.len() > 1 {
@@ -154,12 +144,18 @@ pub(crate) fn heads(found: &Assessment) -> Vec<String> {
     heads
 }
 
-/// The head of a first column, and those of [`answer_cells`].
-pub(crate) fn answer_heads(
+/// A table of answers, each behind its words; `first` is the head of these.
+pub(crate) fn answers<'a>(
     found: &Assessment,
-    first: &str,
-    damage: &str,
-) -> Vec<String> {
+    (first, damage): (&str, &str),
+    rows: impl Iterator<Item = (String, &'a Answer)>,
+) -> WordTable {
+    let row = |(words, answer)| [vec![words], answer_cells(answer)].concat();
+    (answer_heads(found, first, damage), rows.map(row).collect())
+}
+
+/// The head of a first column, and those of [`answer_cells`].
+fn answer_heads(found: &Assessment, first: &str, damage: &str) -> Vec<String> {
     let (im, unit) = (measure(found), found.unit);
     let mut heads = vec![first.to_owned()];
     if found.objects.iter().any(|one| one.answer.risk.is_some()) {
@@ -173,40 +169,45 @@ pub(crate) fn answer_heads(
 }
 
 /// Numbers of a fragility, cell by cell.
-pub(crate) fn answer_cells(answer: &Answer) -> Vec<String> {
+fn answer_cells(answer: &Answer) -> Vec<String> {
     let risk = return_period(answer).into_iter().chain(in_years(answer));
     let ims =
         [three_digits(&answer.small_im), three_digits(&answer.median_im)];
     risk.chain(ims).collect()
 }
 
-/// The row of an object, cell by cell.
-pub(crate) fn ranked(
-    found: &Assessment,
-    one: &ObjectAssessment,
-) -> Vec<String> {
-    let mut cells = vec![one.id.clone(), one.damage.to_string()];
-    cells.extend(answer_cells(&one.answer));
-    if found.objects.len() > 1 {
-        cells.push(percent(one.first_in_draws, 0));
-    }
-    cells.push(match one.slides_first {
-        None => "friction not given".to_owned(),
-        Some(share) => percent(share, 0),
-    });
-    cells
+/// The table of all objects.
+pub(crate) fn objects(found: &Assessment) -> WordTable {
+    let row = |one: &ObjectAssessment| {
+        let mut cells = vec![one.id.clone(), one.damage.to_string()];
+        cells.extend(answer_cells(&one.answer));
+        if found.objects.len() > 1 {
+            cells.push(percent(one.first_in_draws, 0));
+        }
+        cells.push(match one.slides_first {
+            None => "friction not given".to_owned(),
+            Some(share) => percent(share, 0),
+        });
+        cells
+    };
+    (heads(found), found.objects.iter().map(row).collect())
 }
 
 /// The text for the terminal: the first sentence, the table, and the effect of
 /// recorded motions.
 #[must_use]
 pub fn text(found: &Assessment) -> String {
-    let mut text = first(found) + "\n\n";
-    for (k, head) in heads(found).iter().enumerate() {
-        text += &format!("[{}] {head}\n", k + 1);
-    }
-    let rows = found.objects.iter().map(|one| ranked(found, one));
-    let table = columns(&rows.collect::<Vec<_>>(), |_| false);
+    let table = numbered(&objects(found));
     let last = recorded(found).map(|own| format!("\n{own}\n"));
-    text + "\n" + &table + &last.unwrap_or_default()
+    first(found) + "\n\n" + &table + &last.unwrap_or_default()
+}
+
+/// A table: its heads, and its rows cell by cell.
+pub(crate) type WordTable = (Vec<String>, Vec<Vec<String>>);
+
+/// A table whose heads are too long for its columns: numbered, above it.
+pub(crate) fn numbered((heads, rows): &WordTable) -> String {
+    let heads = heads.iter().zip(1..);
+    let heads = heads.map(|(head, k)| format!("[{k}] {head}\n"));
+    heads.collect::<String>() + "\n" + &columns(rows, |_| false)
 }

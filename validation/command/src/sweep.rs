@@ -14,7 +14,9 @@ mod tile;
 
 pub use content::Content;
 pub use merge::merge;
-pub use plan::{LevelSteps, SweepBlock, SweepFolder, SweepPlan, SweepRequest};
+pub use plan::{
+    LevelSteps, SCHEMA, SweepBlock, SweepFolder, SweepPlan, TILE_CURVES,
+};
 pub use tile::{left, run};
 
 #[cfg(test)]

@@ -149,10 +149,8 @@ fn sentences_follow_the_intervals() {
 #[test]
 fn a_page_has_three_drawings_and_the_numbers_of_its_files() {
     let found = made_up();
-    let about = About {
-        ground: "Made-up motions.".to_owned(),
-        provenance: vec![("Table".to_owned(), "t.csv".to_owned())],
-    };
+    let known = [("Table", Some("t.csv".to_owned()))];
+    let about = About::of("Made-up motions.".to_owned(), known);
     let files = files(&found, &about).unwrap();
     let of = |name: &str| String::from_utf8(files[name].clone()).unwrap();
     let page = of("index.html");

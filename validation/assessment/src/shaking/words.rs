@@ -3,14 +3,14 @@
 
 use std::cmp::Ordering;
 
-use rocking_common::words::{columns, rounded};
+use rocking_common::words::rounded;
 use rocking_procedures::shaking::{
     DistributionComparison, Predictor, TestComparison, UnfittedMeasure,
 };
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::Estimate;
 
-use crate::words::{short, symbol, three_digits};
+use crate::words::{WordTable, numbered, short, symbol, three_digits};
 
 /// Name of the block among predictors.
 const BLOCK: &str = "the block";
@@ -272,11 +272,8 @@ pub(super) fn below(found: &TestComparison) -> String {
     )
 }
 
-/// A table: its heads, and its rows cell by cell.
-pub(super) type TestsTable = (Vec<String>, Vec<Vec<String>>);
-
 /// The block and the measures.
-pub(super) fn predictors(found: &TestComparison) -> TestsTable {
+pub(super) fn predictors(found: &TestComparison) -> WordTable {
     let heads = [
         "Predictor",
         &format!("Outcomes predicted ({})", level(found)),
@@ -306,7 +303,7 @@ pub(super) fn predictors(found: &TestComparison) -> TestsTable {
 }
 
 /// The measured and computed fragilities.
-pub(super) fn fragilities(found: &TestComparison) -> TestsTable {
+pub(super) fn fragilities(found: &TestComparison) -> WordTable {
     let heads = [
         "Intensity measure",
         "Measured median",
@@ -334,7 +331,7 @@ pub(super) fn fragilities(found: &TestComparison) -> TestsTable {
 }
 
 /// Log-likelihoods of four fits, by what they say of the onset.
-pub(super) fn onsets(found: &TestComparison) -> TestsTable {
+pub(super) fn onsets(found: &TestComparison) -> WordTable {
     let own = &found.onset;
     let rows = [
         ("scatter on the whole computed capacity", own.whole),
@@ -353,17 +350,14 @@ pub(super) fn onsets(found: &TestComparison) -> TestsTable {
 /// The text for the terminal.
 #[must_use]
 pub fn text(found: &TestComparison) -> String {
-    let (heads, rows) = predictors(found);
     let mut lines = vec![
         first(found),
         String::new(),
         format!("Block: {}.", block(found)),
         counts(found),
         String::new(),
+        numbered(&predictors(found)),
     ];
-    let heads = heads.iter().zip(1..);
-    lines.extend(heads.map(|(head, k)| format!("[{k}] {head}")));
-    lines.push(format!("\n{}", columns(&rows, |_| false)));
     lines.extend(rivals(found));
     lines.extend(found.distributions.iter().map(left_out));
     lines.extend(unfitted(found));

@@ -13,8 +13,7 @@ use rocking_records::floor::Floor;
 
 use super::blocks::{self, BlockRow};
 use super::floors;
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::{RecordArgs, words};
 use super::risk::SiteArgs;
 use super::scene::BlockArgs;
 use super::shared::{BootstrapArgs, ModelErrorArgs, ThreadsArg};
@@ -67,9 +66,7 @@ pub struct AssessCommand {
     #[arg(long, value_name = "PATH")]
     suite: Option<PathBuf>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     /// Hazard curve of the site, CSV; for its columns see `rocking risk
     /// --help`.
     #[arg(long, value_name = "HAZARD.csv")]
@@ -113,7 +110,6 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
     };
     let suite = args.suite()?;
     let folder = OutputFolder::open_new(&args.out)?;
-    let studied = suite.motions.iter().map(|motion| motion.study.clone());
     let options = AssessOptions {
         gravity_m_s2: STANDARD_GRAVITY_M_S2,
         hazard: hazard.as_ref(),
@@ -123,7 +119,8 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
         model_error: args.model_error.or(ModelError::default()),
         recorded_ratios: &ratios,
     };
-    let records: Vec<Accelerogram> = studied.collect();
+    let records = suite.motions.iter().map(|motion| motion.study.clone());
+    let records: Vec<Accelerogram> = records.collect();
     let found = assess(&objects, &records, &suite.clusters, &options)?;
     let about = args.about(&suite)?;
     let mut files = rocking_assessment::files(&found, &about)?;
@@ -162,16 +159,15 @@ impl AssessCommand {
                  computed here",
                 row.place
             );
-            let eta = row.eta.unwrap_or(RESTITUTION);
+            let eta = row.cells.eta.unwrap_or(RESTITUTION);
             Ok(Object {
                 id: row.id.to_string(),
                 block: row.block,
                 restitution: Restitution::constant(eta)?,
-                friction: row.friction,
-                limit_ratio: row.limit_ratio,
-                floor: row.floor.zip(floor).map(|(name, floor)| NamedFloor {
-                    name: name.to_string(),
-                    floor,
+                friction: row.cells.friction,
+                limit_ratio: row.cells.limit_ratio,
+                floor: row.cells.floor.zip(floor).map(|(name, floor)| {
+                    NamedFloor { name: name.to_string(), floor }
                 }),
             })
         };
@@ -201,7 +197,7 @@ impl AssessCommand {
             ("Program", Some(SOFTWARE.to_owned())),
             ("Records", Some(records)),
             ("SHA-256 of the records", Some(suite.sha256())),
-            ("Processing", words(&self.processing.processing()?)),
+            ("Processing", words(&self.input.processing()?)),
             ("Set aside", aside),
             ("Remarks", suite.remarks.words()),
             ("Objects", named(&self.objects)?),
@@ -216,13 +212,13 @@ impl AssessCommand {
 
     fn suite(&self) -> Result<StudySuite, Failure> {
         if let Some(path) = &self.suite {
-            let processing = self.processing.processing()?;
-            let options = self.reading.options(STANDARD_GRAVITY_M_S2);
+            let processing = self.input.processing()?;
+            let options = self.input.reading.options(STANDARD_GRAVITY_M_S2);
             let suite = StudySuite::read(SUITE, path, options, &processing)?;
-            self.reading.judge(&suite.set_aside, &suite.remarks)?;
+            self.input.reading.judge(&suite.set_aside, &suite.remarks)?;
             return Ok(suite);
         }
-        self.reading.refuse_unused(self.processing, "--suite")?;
+        self.input.refuse_unused("--suite")?;
         let [ordinary, _] = StudySuite::embedded()?;
         Ok(ordinary)
     }

@@ -18,19 +18,23 @@ const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
                         friction, limit_ratio and floor";
 
 /// The cells of a row; `None` for an empty one.
-#[derive(Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct BlockCells {
+pub struct BlockCells {
     id: Option<Id>,
     alpha: Option<f64>,
     p: Option<f64>,
     width_m: Option<f64>,
     height_m: Option<f64>,
-    eta: Option<f64>,
+    /// Coefficient of restitution.
+    pub eta: Option<f64>,
     sample: Option<String>,
-    friction: Option<f64>,
-    limit_ratio: Option<f64>,
-    floor: Option<Id>,
+    /// Coefficient of friction of the floor.
+    pub friction: Option<f64>,
+    /// Rotation over slenderness that must not be exceeded.
+    pub limit_ratio: Option<f64>,
+    /// The floor of the building; `None` for the ground.
+    pub floor: Option<Id>,
 }
 
 /// A row of the table.
@@ -42,25 +46,17 @@ pub struct BlockRow {
     pub id: Id,
     /// The block.
     pub block: Block,
-    /// Coefficient of restitution.
-    pub eta: Option<f64>,
     /// Its own sample files beside the table, one a limit state.
     pub samples: Vec<PathBuf>,
-    /// Coefficient of friction of the floor.
-    pub friction: Option<f64>,
-    /// Rotation over slenderness that must not be exceeded.
-    pub limit_ratio: Option<f64>,
-    /// The floor of the building; `None` for the ground.
-    pub floor: Option<Id>,
+    /// Its other cells.
+    pub cells: BlockCells,
 }
 
 impl BlockRow {
     /// A block that is not from a table.
     pub fn of(id: Id, block: Block) -> Self {
-        let place = id.to_string();
-        let samples = Vec::new();
-        let (eta, friction, limit_ratio, floor) = (None, None, None, None);
-        Self { place, id, block, eta, samples, friction, limit_ratio, floor }
+        let (samples, cells) = (Vec::new(), BlockCells::default());
+        Self { place: id.to_string(), id, block, samples, cells }
     }
 }
 
@@ -95,7 +91,7 @@ pub fn parse(
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let cells: BlockCells = record
+        let mut cells: BlockCells = record
             .deserialize(Some(&header))
             .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
         let block = match (cells.alpha, cells.p, cells.width_m, cells.height_m)
@@ -110,31 +106,22 @@ pub fn parse(
         if let Some(eta) = cells.eta {
             Restitution::constant(eta).at(&place)?;
         }
-        let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
+        let id =
+            cells.id.take().map_or_else(|| Id::of(&block), Ok).map_err(at)?;
         if let Some(before) = ids.insert(id.clone(), line) {
             bail!(
                 "{place}: {id} is already on line {before}: expected a \
                  unique id"
             );
         }
-        let samples = cells.sample.map_or(Vec::new(), |names| {
+        let samples = cells.sample.take().map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
         });
-        let BlockCells { eta, friction, limit_ratio, floor, .. } = cells;
-        let mu = friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
+        let mu = cells.friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
         if let Some(mu) = mu {
             bail!("{place}: friction {mu}: expected a positive number");
         }
-        rows.push(BlockRow {
-            place,
-            id,
-            block,
-            eta,
-            samples,
-            friction,
-            limit_ratio,
-            floor,
-        });
+        rows.push(BlockRow { place, id, block, samples, cells });
     }
     ensure!(!rows.is_empty(), "{place}: no block");
     Ok(rows)
@@ -149,7 +136,7 @@ pub fn on_ground(
     gravity_m_s2: f64,
 ) -> Result<Vec<BlockRow>, Failure> {
     let rows = read(path, gravity_m_s2)?;
-    if let Some(row) = rows.iter().find(|row| row.floor.is_some()) {
+    if let Some(row) = rows.iter().find(|row| row.cells.floor.is_some()) {
         bail!(
             "{}: a floor: expected none, motions here are those of the ground",
             row.place

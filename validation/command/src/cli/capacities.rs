@@ -1,7 +1,6 @@
 //! `rocking capacities`: IM given EDP from a response curve or an IDA file.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use clap::ArgGroup;
 use rocking::capacity::{InversionRule, ResponseCurve};
@@ -17,7 +16,6 @@ use serde::Serialize;
 use super::measure::GroundArgs;
 use super::names;
 use super::shared::{JsonArg, positive};
-use super::show::number;
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use crate::threads::with_threads;
@@ -39,7 +37,12 @@ use rocking_common::paper::Intensity;
     .args(["curve", "ida"]))]
 pub struct CapacitiesCommand {
     /// Vertices IM:EDP of one curve, the first at EDP 0.
-    #[arg(long, value_name = "IM:EDP,..", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "IM:EDP,..",
+        value_parser = vertices,
+        allow_hyphen_values = true
+    )]
     curve: Option<Vertices>,
     /// Intensity of first overturning of the curve.
     #[arg(long, value_name = "IM", conflicts_with = "ida")]
@@ -88,83 +91,67 @@ pub struct CapacitiesCommand {
 }
 
 /// Vertices of a curve given by hand.
-#[derive(Clone, Debug)]
-struct Vertices(Vec<(f64, f64)>);
+type Vertices = Vec<(f64, f64)>;
 
-impl FromStr for Vertices {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let vertex = |pair: &str| {
-            let (im, edp) = pair.split_once(':')?;
-            Some((im.trim().parse().ok()?, edp.trim().parse().ok()?))
-        };
-        let vertices = text.split(',').map(|pair| {
-            vertex(pair).ok_or_else(|| {
-                format!("found `{pair}`: expected IM:EDP, such as 1.1:0.2")
-            })
-        });
-        Ok(Self(vertices.collect::<Result<_, _>>()?))
-    }
+fn vertices(text: &str) -> Result<Vertices, String> {
+    let vertex = |pair: &str| {
+        let (im, edp) = pair.split_once(':')?;
+        Some((im.trim().parse().ok()?, edp.trim().parse().ok()?))
+    };
+    let vertices = text.split(',').map(|pair| {
+        vertex(pair).ok_or_else(|| {
+            format!("found `{pair}`: expected IM:EDP, such as 1.1:0.2")
+        })
+    });
+    vertices.collect()
 }
 
-/// EDP levels.
-#[derive(Clone, Debug)]
-pub(super) struct EdpLevels(pub(super) Vec<f64>);
+/// EDP levels, or intensities.
+pub(super) type EdpLevels = Vec<f64>;
 
-impl FromStr for EdpLevels {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let number = |field: &str| {
-            let place = |expected| format!("found `{field}`: {expected}");
-            positive(field).map_err(place)
-        };
-        let parts: Vec<&str> = text.split(':').collect();
-        let [first, last, step] = parts.as_slice() else {
-            let levels = text.split(',').map(number);
-            return Ok(Self(levels.collect::<Result<_, _>>()?));
-        };
-        let (first, last, step) =
-            (number(first)?, number(last)?, number(step)?);
-        let count = ((last - first) / step + 1e-9).floor();
-        if !(last >= first && count < 1e6) {
-            return Err(format!(
-                "found `{text}`: expected FIRST:LAST:STEP with LAST >= FIRST"
-            ));
-        }
-        // A step of 1/d gives levels rounded once: 200 steps of 0.005 are 1.
-        let parts_of_one = (1.0 / step).round();
-        let exact = (parts_of_one * step - 1.0).abs() < 1e-12;
-        let offset = (first * parts_of_one).round();
-        let exact = exact && (offset / parts_of_one - first).abs() < 1e-12;
-        let level = |k: u32| {
-            if exact {
-                (offset + f64::from(k)) / parts_of_one
-            } else {
-                f64::mul_add(f64::from(k), step, first)
-            }
-        };
-        Ok(Self((0..=count as u32).map(level).collect()))
-    }
-}
-
-/// A response in words.
-pub(super) fn demand(edp: f64) -> String {
-    match edp.is_finite() {
-        true => format!("|theta|/alpha = {edp}"),
-        false => "overturning".to_owned(),
-    }
+/// Intensities, FIRST:LAST:STEP or a list.
+pub(super) fn intensities(text: &str) -> Result<EdpLevels, String> {
+    let parts = text.split(',').map(range).collect::<Result<Vec<_>, _>>()?;
+    Ok(parts.concat())
 }
 
 /// EDP levels; `inf` is overturning.
 pub(super) fn edp_levels(text: &str) -> Result<EdpLevels, String> {
     let part = |field: &str| match field.trim() {
         "inf" => Ok(vec![f64::INFINITY]),
-        own => own.parse().map(|EdpLevels(levels)| levels),
+        own => range(own),
     };
     let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
-    Ok(EdpLevels(parts.concat()))
+    Ok(parts.concat())
+}
+
+/// The numbers FIRST:LAST:STEP, or one number.
+fn range(text: &str) -> Result<Vec<f64>, String> {
+    let number = |field: &str| {
+        let place = |expected| format!("found `{field}`: {expected}");
+        positive(field).map_err(place)
+    };
+    let parts: Vec<&str> = text.split(':').collect();
+    let [first, last, step] = parts.as_slice() else {
+        return Ok(vec![number(text)?]);
+    };
+    let (first, last, step) = (number(first)?, number(last)?, number(step)?);
+    let count = ((last - first) / step + 1e-9).floor();
+    if !(last >= first && count < 1e6) {
+        return Err(format!(
+            "found `{text}`: expected FIRST:LAST:STEP with LAST >= FIRST"
+        ));
+    }
+    // A step of 1/d gives levels rounded once: 200 steps of 0.005 are 1.
+    let parts_of_one = (1.0 / step).round();
+    let exact = (parts_of_one * step - 1.0).abs() < 1e-12;
+    let offset = (first * parts_of_one).round();
+    let exact = exact && (offset / parts_of_one - first).abs() < 1e-12;
+    let level = |k: u32| match exact {
+        true => (offset + f64::from(k)) / parts_of_one,
+        false => f64::mul_add(f64::from(k), step, first),
+    };
+    Ok((0..=count as u32).map(level).collect())
 }
 
 /// Runs `rocking capacities`.
@@ -172,29 +159,12 @@ pub(super) fn edp_levels(text: &str) -> Result<EdpLevels, String> {
 /// # Errors
 /// [`Failure`] for a curve, a file or a level that is refused.
 pub fn run_capacities(args: &CapacitiesCommand) -> Result<(), Failure> {
-    match (&args.curve, &args.ida) {
-        (Some(vertices), _) => {
-            let curve = ResponseCurve::try_new(&vertices.0, args.overturning)?;
-            by_hand(args, &curve)
-        }
-        (None, Some(path)) => by_file(args, path),
-        (None, None) => bail!("--curve or --ida is needed"),
-    }
-}
-
-fn by_hand(
-    args: &CapacitiesCommand,
-    curve: &ResponseCurve,
-) -> Result<(), Failure> {
-    let levels = crossings(curve, &args.levels.0, |im| im)?;
-    let reached = levels.iter().filter(|level| level.first.is_finite());
-    let sentence = format!(
-        "The curve reaches {} of {} levels.",
-        reached.count(),
-        levels.len()
-    );
+    let Some(vertices) = &args.curve else { return by_file(args) };
+    let curve = ResponseCurve::try_new(vertices, args.overturning)?;
+    let levels = crossings(&curve, &args.levels, |im| im)?;
     let im_r = curve.onset_im();
-    args.json.show(&sentence, &CurveCrossings { im_r, levels })
+    let sentence = "The block begins to rock at an intensity of {im_r}.";
+    args.json.show(&[sentence], &CurveCrossings { im_r, levels })
 }
 
 /// Crossings of one curve.
@@ -230,10 +200,11 @@ struct RecordCrossings {
     levels: Vec<LevelCrossings>,
 }
 
-fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
+fn by_file(args: &CapacitiesCommand) -> Result<(), Failure> {
+    let Some(path) = &args.ida else { bail!("--curve or --ida is needed") };
     let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::PGA);
     let rule = args.point.unwrap_or(InversionRule::Median);
-    let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
+    let inputs = [vec![path.clone()], args.ground.inputs()].concat();
     let mut outputs = Outputs::of(inputs);
     let out = outputs.open_some(args.out.as_ref())?;
     let (table, suite, set_aside) = suite(args, path, measure)?;
@@ -247,14 +218,14 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
             record: record.clone(),
             onset_im: measured(curve.onset_im()),
             overturning_im: curve.overturning_im().map(measured),
-            levels: crossings(curve, &args.levels.0, measured)?,
+            levels: crossings(curve, &args.levels, measured)?,
         })
     };
     let records = args.json.json.then(|| suite.curves.iter().map(record));
     let records = records.map(Iterator::collect::<Result<_, _>>);
     let records = records.transpose()?;
     let curves = suite.clone().into_curves();
-    let levels = levels(&curves, &args.levels.0, rule, measured)?;
+    let levels = levels(&curves, &args.levels, rule, measured)?;
     let found = CapacitiesSummary {
         im: measure.words(),
         im_r: measured(suite.im_r),
@@ -266,18 +237,14 @@ fn by_file(args: &CapacitiesCommand, path: &Path) -> Result<(), Failure> {
         levels,
         records,
     };
-    let sentence = found.levels.last().map_or(String::new(), |last| {
-        let (n, im, at) = (found.n, &found.im, demand(last.edp));
-        let median = match last.im50.is_finite() {
-            true => {
-                format!("{im} has a median of {}", number(last.im50, None))
-            }
-            false => format!("the median {im} is not reached"),
-        };
-        let reached = n - last.censored;
-        format!("At {at} {median}; {reached} of {n} records reach it.")
-    });
-    args.json.show_beside(&outputs, &sentence, &found)
+    let sentences = [
+        "At |theta|/alpha = {levels.last.edp} the median of {im} is \
+         {levels.last.im50}, over {n} records.",
+        "At overturning the median of {im} is {levels.last.im50}, over {n} \
+         records.",
+        "The median of {im} is not reached at the last level.",
+    ];
+    args.json.show_beside(&outputs, &sentences, &found)
 }
 
 /// The curves of a table against a measure.
@@ -288,7 +255,7 @@ fn suite(
 ) -> Result<(IdaTable, Curves, Option<SetAside>), Failure> {
     if let Some(intensity) = measure.dimensionless() {
         ensure!(
-            !args.ground.is_given(),
+            args.ground.suite.is_none(),
             "--suite is not used for {}, which the table contains",
             intensity.row().words
         );
@@ -301,5 +268,5 @@ fn suite(
     let ground = with_threads(None, || args.ground.ground(&table, measures))??;
     let factors = ground.at_uplift(measure)?;
     let curves = curves.against(&factors, measure.is_squared())?;
-    Ok((table, curves, Some(ground.into_set_aside())))
+    Ok((table, curves, Some(ground.set_aside)))
 }

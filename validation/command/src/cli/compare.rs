@@ -6,7 +6,6 @@ use rocking_procedures::compare;
 use rocking_procedures::comparison::{NamedSample, SampleSide};
 
 use super::shared::JsonArg;
-use super::show::{INTERVAL, estimate};
 use crate::failure::Failure;
 use crate::input;
 
@@ -54,13 +53,11 @@ pub fn run_compare(args: &CompareCommand) -> Result<(), Failure> {
         Some((SampleSide::B, place)) => b.error(place, error).into(),
         None => Failure::from(error),
     })?;
-    let centre = match &found.hodges_lehmann {
-        Ok(own) => format!("is centred at {}", estimate(&own.ratio, INTERVAL)),
-        Err(reason) => format!("has no centre: {reason}"),
-    };
-    let sentence = format!(
-        "The ratio a/b {centre}; {} of {} pairs have a ratio.",
-        found.usable, found.pairs.n
-    );
-    args.json.show(&sentence, &found)
+    let sentences = [
+        "The ratio a/b is centred at {hodges_lehmann.ratio} \
+         ({hodges_lehmann.low} to {hodges_lehmann.high}); {usable} of {n} \
+         pairs have a ratio.",
+        "The ratio a/b has no centre: {hodges_lehmann.reason}.",
+    ];
+    args.json.show(&sentences, &found)
 }

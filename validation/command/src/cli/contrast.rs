@@ -6,7 +6,6 @@ use rocking_procedures::contrast;
 use rocking_procedures::contrast::ContrastSample;
 
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
-use super::show::{INTERVAL, estimate};
 use crate::failure::Failure;
 use crate::input;
 
@@ -51,12 +50,9 @@ pub fn run_contrast(args: &ContrastCommand) -> Result<(), Failure> {
     let draws = args.bootstrap.draws();
     let (a, b) = (drawn(&of_a, 0), drawn(&of_b, 1));
     let found = args.threads.run(|| contrast(a, b, draws))??;
-    let sentence = match &found.median_ratio {
-        Ok(own) => format!(
-            "The median of a is {} times that of b.",
-            estimate(&own.estimate, INTERVAL)
-        ),
-        Err(reason) => format!("The medians have no ratio: {reason}."),
-    };
-    args.json.show(&sentence, &found)
+    let sentences = [
+        "The median of a is {median_ratio} times that of b.",
+        "The medians have no ratio: {median_ratio.reason}.",
+    ];
+    args.json.show(&sentences, &found)
 }

@@ -11,8 +11,7 @@ use rocking::excitation::{
 use rocking_records::{Record, RemarkInput, SetAside, read_file};
 
 use super::names::{self, named};
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::RecordArgs;
 use super::shared::positive;
 use crate::failure::{Failure, bail, ensure};
 use rocking_common::paper::Intensity;
@@ -32,9 +31,7 @@ pub struct ExcitationArgs {
     )]
     record: Option<PathBuf>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    pub input: RecordArgs,
     /// An analytic pulse from t = 0.
     #[arg(
         long,
@@ -77,7 +74,7 @@ pub struct ExcitationArgs {
 }
 
 /// The excitation, owned.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 enum MotionSource {
     /// A record as given, and a factor on it.
     Factor(Accelerogram, f64),
@@ -86,11 +83,12 @@ enum MotionSource {
     /// A pulse.
     Pulse(Pulse),
     /// None.
+    #[default]
     Free,
 }
 
 /// The excitation, and what is known of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct GroundMotion {
     motion: MotionSource,
     /// Peak ground acceleration, g.
@@ -128,8 +126,8 @@ impl ExcitationArgs {
                 ratio > 0.0 && ratio < 1.0,
                 "--initial-ratio {ratio}: expected a number in (0, 1)"
             );
-            let ground = GroundMotion::of(MotionSource::Free, 0.0);
-            return Ok(GroundMotion { initial_ratio: ratio, ..ground });
+            let none = GroundMotion::default();
+            return Ok(GroundMotion { initial_ratio: ratio, ..none });
         }
         let kind = self.im_kind.unwrap_or(Intensity::Pga);
         let target_pga_g = |velocity_ratio_s| {
@@ -137,13 +135,17 @@ impl ExcitationArgs {
             self.pga.or(self.im.map(by_im))
         };
         if let Some(path) = &self.record {
-            let options = self.reading.of_one(gravity_m_s2)?;
+            ensure!(
+                !self.input.reading.recursive,
+                "--recursive is not used with one record: expected a suite"
+            );
+            let options = self.input.reading.options(gravity_m_s2);
             let Record { accelerogram, remarks: read, .. } =
                 read_file(path, &options)?;
-            let record = self.processing.processing()?.apply(&accelerogram)?;
+            let record = self.input.processing()?.apply(&accelerogram)?;
             let remarked = RemarkInput::of(&record, None, &read);
             let remarks = Remarks::of(&[remarked]);
-            self.reading.judge(&SetAside::default(), &remarks)?;
+            self.input.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);
             let target = target_pga_g(unit.velocity_ratio_s());
             let dt_s = Some(record.dt_s());
@@ -159,9 +161,13 @@ impl ExcitationArgs {
                 ),
                 Some(pga_g) => (MotionSource::Peak(unit, pga_g), pga_g),
             };
-            let ground = GroundMotion::of(motion, pga_g);
-            let remarks = Some(remarks);
-            return Ok(GroundMotion { dt_s, remarks, ..ground });
+            return Ok(GroundMotion {
+                motion,
+                pga_g,
+                dt_s,
+                remarks: Some(remarks),
+                ..GroundMotion::default()
+            });
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
@@ -172,7 +178,8 @@ impl ExcitationArgs {
             (None, None) => pulse,
         };
         let pga_g = pulse.pga_g();
-        Ok(GroundMotion::of(MotionSource::Pulse(pulse), pga_g))
+        let motion = MotionSource::Pulse(pulse);
+        Ok(GroundMotion { motion, pga_g, ..GroundMotion::default() })
     }
 
     /// Refuses a flag that the chosen excitation has no use for.
@@ -183,7 +190,7 @@ impl ExcitationArgs {
             None => "--record".to_owned(),
         };
         let unused = |flag: &str| bail!("{flag} is not used with {chosen}");
-        let of_record = self.reading.given().or(self.processing.given());
+        let of_record = self.input.given();
         if let Some(flag) = of_record.filter(|_| self.record.is_none()) {
             return unused(flag);
         }
@@ -222,14 +229,6 @@ impl ExcitationArgs {
     /// The files that are read.
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.record.iter().cloned().collect()
-    }
-
-    /// The processing of the record, in words.
-    ///
-    /// # Errors
-    /// [`Failure`] for an invalid corner.
-    pub fn processing(&self) -> Result<Option<String>, Failure> {
-        Ok(words(&self.processing.processing()?))
     }
 
     /// The excitation, in a word.
@@ -304,11 +303,6 @@ impl clap::FromArgMatches for PulseParameters {
 }
 
 impl GroundMotion {
-    fn of(motion: MotionSource, pga_g: f64) -> Self {
-        let (dt_s, initial_ratio, remarks) = (None, 0.0, None);
-        Self { motion, pga_g, dt_s, initial_ratio, remarks }
-    }
-
     /// The excitation.
     pub fn excitation(&self) -> Excitation<'_> {
         match &self.motion {

@@ -52,11 +52,10 @@ pub fn parse(
         let record = record.map_err(|e| no_csv(path, e))?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
-        let cells: FloorCells =
+        let FloorCells { name, period_s, damping, height_ratio } =
             record.deserialize(Some(&header)).map_err(|e| {
                 Failure::input(format!("{place}: {e}: expected {EXPECTED}"))
             })?;
-        let FloorCells { name, period_s, damping, height_ratio } = cells;
         let floor = Floor::try_new(period_s, damping, height_ratio);
         ensure!(
             floors.insert(name.clone(), floor.at(&place)?).is_none(),
@@ -79,7 +78,7 @@ pub fn of_rows(
 ) -> Result<Vec<Option<Floor>>, Failure> {
     let floors = path.map(read).transpose()?.unwrap_or_default();
     if let Some(path) = path
-        && rows.iter().all(|row| row.floor.is_none())
+        && rows.iter().all(|row| row.cells.floor.is_none())
     {
         bail!(
             "{}: no object has a floor: expected a column floor in the table \
@@ -88,7 +87,7 @@ pub fn of_rows(
         );
     }
     let floor = |row: &BlockRow| {
-        let Some(name) = &row.floor else { return Ok(None) };
+        let Some(name) = &row.cells.floor else { return Ok(None) };
         let found = floors.get(name).copied();
         found.map(Some).ok_or_else(|| {
             let names: Vec<_> = floors.keys().map(Id::to_string).collect();

@@ -24,11 +24,9 @@ use serde::Serialize;
 use self::forces::ForcesArgs;
 use super::limit::{LimitArgs, curve_refused};
 use super::names;
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::{RecordArgs, words};
 use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg, ThreadsArg, positive};
-use super::show::number;
 use super::way::WayArgs;
 use crate::failure::{Failure, ensure};
 use crate::terminal::{SOFTWARE, logged, progress};
@@ -63,9 +61,7 @@ pub struct IdaCommand {
     #[arg(long, value_name = "PATH")]
     suite: PathBuf,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     /// Step of the levels in PGA, g [default: 0.01].
     #[arg(long, value_name = "G", conflicts_with = "step_im")]
     step_g: Option<f64>,
@@ -151,8 +147,8 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
     args.way.way()?;
-    let read = args.reading.options(gravity_m_s2);
-    let processing = args.processing.processing()?;
+    let read = args.input.reading.options(gravity_m_s2);
+    let processing = args.input.processing()?;
     let suite: Suite<Profile> =
         profiles::<Failure>(&args.suite, read, &processing)?;
     let mut outputs = Outputs::of(files(&args.suite, &suite));
@@ -162,22 +158,32 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     let chosen = args.chosen(&suite)?;
     let remarked = chosen.iter().map(|member| RemarkInput::from(*member));
     let remarks = Remarks::of(&remarked.collect::<Vec<_>>());
-    args.reading.judge(suite.set_aside(), &remarks)?;
+    args.input.reading.judge(suite.set_aside(), &remarks)?;
     let events = chosen
         .iter()
         .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")));
+    let done = words(&processing);
+    let report = IdaReport {
+        suite: suite.name(),
+        earthquakes: earthquakes(&clusters(&chosen)),
+        study_components: suite.study_rule().to_string(),
+        processing: done.as_deref(),
+        remarks: &remarks,
+        set_aside: suite.set_aside(),
+        highest_im: HIGHEST_IM,
+        order: args.order,
+        summary: summarise_ida(&[], &analysis),
+        pivot: None,
+    };
     let mut work = IdaRun {
         args,
         analysis: &analysis,
-        processing: words(&processing),
-        remarks: &remarks,
+        report,
         events: events.collect(),
         bar: progress(chosen.len() as u64),
         out,
         forces_out,
         curves: plot.is_some().then(Vec::new),
-        summary: summarise_ida(&[], &analysis),
-        pivot: None,
     };
     let mut block = Vec::new();
     let mut samples = 0;
@@ -199,37 +205,20 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     if let Some(out) = plot {
         out.write(svg(&work.curves.unwrap_or_default(), &analysis)?)?;
     }
-    let summary = work.summary;
-    let median = summary.median_overturning_im.filter(|im| im.is_finite());
-    let median = median.map_or(String::new(), |im| {
-        let im = number(im, None);
-        format!("; the median PGA/(g tan alpha) at which it does is {im}")
-    });
-    let sentence = format!(
-        "The block overturns under {} of {} records{median}.",
-        summary.overturned_curves, summary.records
-    );
-    let found = IdaReport {
-        suite: suite.name(),
-        earthquakes: earthquakes(&clusters(&chosen)),
-        study_components: suite.study_rule().to_string(),
-        processing: work.processing.as_deref(),
-        remarks: &remarks,
-        set_aside: suite.set_aside(),
-        highest_im: HIGHEST_IM,
-        order: args.order,
-        summary,
-        pivot: work.pivot,
-    };
-    args.json.summarise(&outputs, &sentence, &found)
+    let sentences = [
+        "The block overturns under {overturned_curves} of {records} records; \
+         the median PGA/(g tan alpha) at which it does is \
+         {median_overturning_im}.",
+        "The block overturns under {overturned_curves} of {records} records.",
+    ];
+    args.json.summarise(&outputs, &sentences, &work.report)
 }
 
 /// A suite that is worked off in blocks of records.
 struct IdaRun<'a> {
     args: &'a IdaCommand,
     analysis: &'a Analysis,
-    processing: Option<String>,
-    remarks: &'a Remarks,
+    report: IdaReport<'a>,
     /// Earthquakes of the records; empty if the index names none.
     events: BTreeMap<&'a str, &'a str>,
     bar: indicatif::ProgressBar,
@@ -237,8 +226,6 @@ struct IdaRun<'a> {
     forces_out: Option<Output>,
     /// The curves, if they are drawn.
     curves: Option<Vec<ResponseCurve>>,
-    summary: IdaSummary,
-    pivot: Option<PivotForces>,
 }
 
 impl IdaRun<'_> {
@@ -256,13 +243,13 @@ impl IdaRun<'_> {
             .map_err(curve_refused)?;
         let known = |record: &str| {
             let event = self.events.get(record).copied().unwrap_or_default();
-            (self.remarks.codes(record), event.to_owned())
+            (self.report.remarks.codes(record), event.to_owned())
         };
-        let processing = self.processing.as_deref().unwrap_or("none");
+        let processing = self.report.processing.unwrap_or("none");
         let about = (processing, SOFTWARE);
         let gravity_m_s2 = args.model.gravity_m_s2;
         let rows = IdaTable::of(&table, analysis, gravity_m_s2, about, known);
-        let is_first = self.summary.records == 0;
+        let is_first = self.report.summary.records == 0;
         // The header is written once.
         let part = |text: String| match is_first {
             true => text,
@@ -273,11 +260,11 @@ impl IdaRun<'_> {
             if let Some(out) = &mut self.forces_out {
                 out.add(part(forces::csv(&pivot, &table)))?;
             }
-            match &mut self.pivot {
-                None => self.pivot = Some(pivot),
+            match &mut self.report.pivot {
+                None => self.report.pivot = Some(pivot),
                 Some(all) => all.add(pivot),
             }
-            if let Some(all) = &mut self.pivot {
+            if let Some(all) = &mut self.report.pivot {
                 all.curves.clear();
             }
         }
@@ -286,7 +273,7 @@ impl IdaRun<'_> {
                 drawn.push(curve.response(BracketEnd::Refined)?);
             }
         }
-        self.summary.add(&table);
+        self.report.summary.add(&table);
         Ok(())
     }
 }

@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::ArgGroup;
 use rocking_procedures::{NormalityOptions, Shift, test_normality};
 use rocking_statistics::lilliefors::{
-    CriticalValue, LillieforsTable, NullDistribution, Verdict,
+    CriticalValue, LillieforsTable, NullDistribution,
 };
 use serde::Serialize;
 
 use super::shared::{JsonArg, ThreadsArg};
-use super::show::{INTERVAL, estimate};
 use crate::failure::{Failure, bail};
 use crate::input;
 use crate::terminal::progress;
@@ -114,12 +113,10 @@ fn critical_value(args: &LillieforsCommand, n: usize) -> Result<(), Failure> {
     let (seed, level) = (args.seed.unwrap_or(0), args.level);
     let null = NullDistribution::simulate(n, replicates, seed)?;
     let critical_value = null.critical_value(level)?;
-    let sentence = format!(
-        "The critical value of samples of {n} values at level {level} is {}.",
-        estimate(&critical_value.estimate, INTERVAL)
-    );
     let found = Critical { n, level, replicates, seed, critical_value };
-    args.json.show(&sentence, &found)
+    let sentence = "The critical value of samples of {n} values at level \
+                    {level} is {critical_value}.";
+    args.json.show(&[sentence], &found)
 }
 
 fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
@@ -138,17 +135,11 @@ fn test(args: &LillieforsCommand, file: &SampleFile) -> Result<(), Failure> {
              p-value is from the table"
         );
     }
-    let words = match found.verdict {
-        Some(Verdict::Rejected) => "The test rejects normality",
-        Some(Verdict::NotRejected) => "The test does not reject normality",
-        Some(Verdict::Indeterminate) => "More replicates are needed to decide",
-        None => "The test does not apply",
-    };
-    let p_value = found.p_value.as_ref().map(|p| estimate(p, INTERVAL));
-    let why = p_value.map(|p| format!(" at level {}: p = {p}", found.level));
-    let reason = found.reason.as_ref().map(|reason| format!(": {reason}"));
-    let why = why.or(reason).unwrap_or_default();
-    args.json.show(&format!("{words}{why}."), &found)
+    let sentences = [
+        "Normality is {verdict} at level {level}: p = {p_value}.",
+        "The test does not apply: {reason}.",
+    ];
+    args.json.show(&sentences, &found)
 }
 
 /// Simulates every size of `crates/statistics/src/lilliefors/table.csv` and writes it:

@@ -34,8 +34,7 @@ fn with_flag(failure: Failure, error: &SceneError) -> Failure {
         SceneError::Work { .. } => "--most-steps",
         _ => return failure,
     };
-    let Failure { message, status } = failure;
-    Failure { message: format!("{message} by {flag}"), status }
+    Failure { message: format!("{} by {flag}", failure.message), ..failure }
 }
 
 /// Why a scene was refused, and how to raise a limit.

@@ -14,8 +14,7 @@ use rocking_records::intensity::{
 };
 use rocking_records::{SetAside, SuiteMember};
 
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::{RecordArgs, words};
 use crate::failure::{Failure, bail, ensure};
 use crate::input;
 use rocking_common::suites::inputs::read_suite;
@@ -27,11 +26,9 @@ pub struct GroundArgs {
     /// The suite of --ida: folder, index or zip; for measures that the table
     /// does not contain.
     #[arg(long, value_name = "PATH", requires = "ida")]
-    suite: Option<PathBuf>,
+    pub suite: Option<PathBuf>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     /// Attributes by record: CSV with a column `record`, whose names are those
     /// of --ida. Columns of the suite's index are attributes, too.
     #[arg(long, value_name = "FILE.csv", requires = "suite")]
@@ -45,7 +42,8 @@ pub struct SuiteMeasures {
     periods_s: Vec<f64>,
     uplift: AtUplift,
     records: Vec<MeasuredRecord>,
-    set_aside: SetAside,
+    /// Files set aside of the suite.
+    pub set_aside: SetAside,
 }
 
 struct MeasuredRecord {
@@ -55,11 +53,6 @@ struct MeasuredRecord {
 }
 
 impl GroundArgs {
-    /// Whether a suite is given.
-    pub fn is_given(&self) -> bool {
-        self.suite.is_some()
-    }
-
     /// The files to be read.
     pub fn inputs(&self) -> Vec<PathBuf> {
         self.suite.iter().chain(&self.attributes).cloned().collect()
@@ -87,8 +80,14 @@ impl GroundArgs {
         };
         let setting = &table.setting;
         let gravity = setting.gravity_m_s2;
-        let uplift = uplift(table)?;
-        let processing = self.processing.processing()?;
+        let Some(alpha_rad) = table.alpha_rad() else {
+            bail!(
+                "the table adjusts slenderness: expected one of \
+                 record-scaling, whose intensities are scale factors"
+            );
+        };
+        let block = Block::try_new(alpha_rad, setting.p_rad_s)?;
+        let processing = self.input.processing()?;
         let done = words(&processing).unwrap_or("none".into());
         ensure!(
             done == setting.processing,
@@ -96,10 +95,10 @@ impl GroundArgs {
              expected the same",
             setting.processing
         );
-        let options = self.reading.options(gravity);
+        let options = self.input.reading.options(gravity);
         let suite = read_suite(path, options)?.processed(&processing)?;
         let set_aside = suite.set_aside().clone();
-        self.reading.judge(&set_aside, &Remarks::on(&suite))?;
+        self.input.reading.judge(&set_aside, &Remarks::on(&suite))?;
         let mut members: BTreeMap<&str, &SuiteMember> = BTreeMap::new();
         for member in suite.members() {
             let name = member.accelerogram.name();
@@ -122,14 +121,14 @@ impl GroundArgs {
             })?;
             let measures = Measures::of(&member.accelerogram, &settings)?;
             let mut attributes = member.attributes_by_name();
-            attributes.extend(own.of(name));
+            attributes.extend(own.get(name).cloned().unwrap_or_default());
             Ok(MeasuredRecord { name: name.to_owned(), measures, attributes })
         });
         let records = measured.collect::<Result<Vec<_>, Failure>>()?;
         let place = self.attributes.as_ref().unwrap_or(path).clone();
         let periods_s = settings.periods_s().to_vec();
         let uplift = AtUplift {
-            pga_g: uplift,
+            pga_g: uplift_threshold(&block, setting.model),
             p_rad_s: setting.p_rad_s,
             gravity_m_s2: gravity,
         };
@@ -137,24 +136,7 @@ impl GroundArgs {
     }
 }
 
-/// PGA in g at which the block of the table lifts off.
-fn uplift(table: &IdaTable) -> Result<f64, Failure> {
-    let Some(alpha_rad) = table.alpha_rad() else {
-        bail!(
-            "the table adjusts slenderness: expected one of record-scaling, \
-             whose intensities are scale factors"
-        );
-    };
-    let block = Block::try_new(alpha_rad, table.setting.p_rad_s)?;
-    Ok(uplift_threshold(&block, table.setting.model))
-}
-
 impl SuiteMeasures {
-    /// Files set aside of the suite.
-    pub fn into_set_aside(self) -> SetAside {
-        self.set_aside
-    }
-
     /// The measures as candidates of a ranking.
     ///
     /// # Errors
@@ -223,21 +205,8 @@ impl SuiteMeasures {
     }
 }
 
-/// A table of attributes by record.
-#[derive(Default)]
-struct Attributes {
-    header: csv::StringRecord,
-    rows: BTreeMap<String, csv::StringRecord>,
-}
-
-impl Attributes {
-    /// Names and cells of a record.
-    fn of(&self, record: &str) -> impl Iterator<Item = (String, String)> {
-        let row = self.rows.get(record).into_iter();
-        let cells = row.flat_map(|row| self.header.iter().zip(row));
-        cells.map(|(name, cell)| (name.to_owned(), cell.to_owned()))
-    }
-}
+/// Attributes of records, by their names.
+type Attributes = BTreeMap<String, BTreeMap<String, String>>;
 
 fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
     let place = path.display();
@@ -249,15 +218,17 @@ fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
             header.iter().collect::<Vec<_>>().join(",")
         );
     };
-    let mut rows = BTreeMap::new();
+    let mut rows = Attributes::new();
     for row in reader.records() {
         let row = row.map_err(|e| no_csv(path, e))?;
         let line = row.position().map_or(0, csv::Position::line);
-        let record = row[key].to_owned();
+        let own = header.iter().zip(&row);
+        let own = own.map(|(name, cell)| (name.to_owned(), cell.to_owned()));
         ensure!(
-            rows.insert(record.clone(), row).is_none(),
-            "{place}:{line}: record {record} is repeated: expected it once"
+            rows.insert(row[key].to_owned(), own.collect()).is_none(),
+            "{place}:{line}: record {} is repeated: expected it once",
+            &row[key]
         );
     }
-    Ok(Attributes { header, rows })
+    Ok(rows)
 }

@@ -7,7 +7,7 @@ use rocking::integrator::{Model, Order, Overturning};
 use rocking_statistics::QuantileType;
 use rocking_statistics::lognormal::FitMethod;
 
-use rocking_common::paper::{Arm, Intensity};
+use rocking_common::paper::Intensity;
 
 /// Names of values, with their help texts, if any.
 pub fn named<T: Copy + Send + Sync + 'static>(
@@ -86,9 +86,4 @@ pub fn fit_method() -> impl TypedValueParser<Value = FitMethod> {
     ];
     let all = FitMethod::all(QuantileType::default());
     named(all, FitMethod::name, help)
-}
-
-/// Arms of the study.
-pub fn arm() -> impl TypedValueParser<Value = Arm> {
-    named(Arm::ALL, Arm::name, [""; 3])
 }

@@ -1,12 +1,15 @@
-//! Flags that change records before they are used.
+//! Flags for how records are read, and changed before they are used.
 
 use rocking_records::Processing;
 
-use crate::failure::{AtPlace as _, Failure};
+use super::reading::ReadArgs;
+use crate::failure::{AtPlace as _, Failure, bail};
 
-/// Processing of records; none by default.
+/// How records are read and processed; no processing by default.
 #[derive(clap::Args, Clone, Copy, Debug)]
-pub struct ProcessingArgs {
+pub struct RecordArgs {
+    #[command(flatten)]
+    pub reading: ReadArgs,
     /// Remove the mean of every record.
     #[arg(long)]
     demean: bool,
@@ -16,7 +19,7 @@ pub struct ProcessingArgs {
     pub high_pass: Option<f64>,
 }
 
-impl ProcessingArgs {
+impl RecordArgs {
     /// The processing of these flags.
     ///
     /// # Errors
@@ -27,10 +30,22 @@ impl ProcessingArgs {
 
     /// The first flag given, to be refused if no record is read.
     pub fn given(self) -> Option<&'static str> {
-        if self.demean {
-            Some("--demean")
-        } else {
-            self.high_pass.map(|_| "--high-pass")
+        let flags = [
+            ("--demean", self.demean),
+            ("--high-pass", self.high_pass.is_some()),
+        ];
+        let mut flags = self.reading.flags().into_iter().chain(flags);
+        flags.find_map(|(flag, is_given)| is_given.then_some(flag))
+    }
+
+    /// Refuses these flags if no record is read without another flag.
+    ///
+    /// # Errors
+    /// [`Failure`] with the flag and the other one.
+    pub fn refuse_unused(self, without: &str) -> Result<(), Failure> {
+        match self.given() {
+            None => Ok(()),
+            Some(flag) => bail!("{flag} is not used without {without}"),
         }
     }
 }

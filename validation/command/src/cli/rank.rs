@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::measure::{GroundArgs, SuiteMeasures};
 use super::names;
 use super::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
-use super::show::{INTERVAL, estimate};
+use super::show::number;
 use crate::failure::Failure;
 use crate::input;
 use rocking_common::files::Outputs;
@@ -117,7 +117,7 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
         let covariates = args.covariates(&ground)?;
         let ranking =
             rank(&capacities, &candidates, &covariates, &clusters, draws)?;
-        Ok::<_, Failure>((ranking, ground.into_set_aside()))
+        Ok::<_, Failure>((ranking, ground.set_aside))
     })??;
     if let Some(out) = plot {
         out.write(ranking_svg(&ranking, &measures, args.at))?;
@@ -128,15 +128,10 @@ pub fn run_rank(args: &RankCommand) -> Result<(), Failure> {
     let all = found.ranking.measures.iter();
     let best = all.min_by(|a, b| beta(a).total_cmp(&beta(b)));
     let sentence = best.map_or(String::new(), |best| {
-        format!(
-            "{} predicts the {} capacities best: they have a dispersion of \
-             {}.",
-            best.im,
-            found.ranking.n,
-            estimate(&best.dispersion.estimate, INTERVAL)
-        )
+        let beta = number(beta(&best), None);
+        format!("{} has the smallest dispersion, {beta}.", best.im)
     });
-    args.json.show_beside(&outputs, &sentence, &found)
+    args.json.show_beside(&outputs, &[&sentence], &found)
 }
 
 impl RankCommand {
@@ -145,14 +140,14 @@ impl RankCommand {
         &self,
         ground: &SuiteMeasures,
     ) -> Result<Vec<Covariate>, Failure> {
-        let mut all = Vec::new();
-        if let Some(column) = &self.magnitude {
-            let values = ground.column(column)?;
-            all.push(Covariate::magnitude(values));
-        }
-        if let Some(column) = &self.distance {
-            all.push(Covariate::ln_distance(ground.column(column)?));
-        }
-        Ok(all)
+        let magnitude = self
+            .magnitude
+            .iter()
+            .map(|column| Ok(Covariate::magnitude(ground.column(column)?)));
+        let distance = self
+            .distance
+            .iter()
+            .map(|column| Ok(Covariate::ln_distance(ground.column(column)?)));
+        magnitude.chain(distance).collect()
     }
 }

@@ -4,8 +4,7 @@
 use rocking::units::AccelerationUnit;
 use rocking_records::{ReadOptions, SetAside};
 
-use super::processing::ProcessingArgs;
-use crate::failure::{Failure, bail, ensure};
+use crate::failure::{Failure, ensure};
 use crate::terminal::note;
 use rocking_common::suites::remarks::Remarks;
 
@@ -20,7 +19,7 @@ pub struct ReadArgs {
     units: Option<AccelerationUnit>,
     /// Also read the subfolders of a folder of records.
     #[arg(long)]
-    recursive: bool,
+    pub recursive: bool,
     /// Fail if a record looks suspicious or a file is set aside; `rocking
     /// records` lists them.
     #[arg(long)]
@@ -39,45 +38,14 @@ impl ReadArgs {
         ReadOptions { dt_s, unit, gravity_m_s2, recursive }
     }
 
-    /// As [`ReadArgs::options`], for one file.
-    ///
-    /// # Errors
-    /// [`Failure`] for a flag that is of folders.
-    pub fn of_one(self, gravity_m_s2: f64) -> Result<ReadOptions, Failure> {
-        ensure!(
-            !self.recursive,
-            "--recursive is not used with one record: expected a suite"
-        );
-        Ok(self.options(gravity_m_s2))
-    }
-
-    /// The first flag given, to be refused if no record is read.
-    pub fn given(self) -> Option<&'static str> {
-        if self.dt.is_some() {
-            Some("--dt")
-        } else if self.units.is_some() {
-            Some("--units")
-        } else if self.recursive {
-            Some("--recursive")
-        } else {
-            self.strict.then_some("--strict")
-        }
-    }
-
-    /// Refuses flags of reading and processing if no record is read without
-    /// another flag.
-    ///
-    /// # Errors
-    /// [`Failure`] with the flag and the other one.
-    pub fn refuse_unused(
-        self,
-        processing: ProcessingArgs,
-        without: &str,
-    ) -> Result<(), Failure> {
-        match self.given().or(processing.given()) {
-            None => Ok(()),
-            Some(flag) => bail!("{flag} is not used without {without}"),
-        }
+    /// The flags, and whether they are given.
+    pub fn flags(self) -> [(&'static str, bool); 4] {
+        [
+            ("--dt", self.dt.is_some()),
+            ("--units", self.units.is_some()),
+            ("--recursive", self.recursive),
+            ("--strict", self.strict),
+        ]
     }
 
     /// Notes for how many records the flags were used. With `--strict`,

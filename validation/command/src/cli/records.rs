@@ -4,15 +4,14 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use indexmap::IndexMap;
-use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
+use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_records::{
-    Fallback, Fault, Format, ReadOptions, RecordError, Remark, RemarkInput,
-    SetAside, Suite, SuiteError, SuiteMember,
+    Fallback, Fault, ReadOptions, RecordError, RemarkInput, SetAside, Suite,
+    SuiteError, SuiteMember,
 };
 use serde::Serialize;
 
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::{RecordArgs, words};
 use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
 use measures::{MeasureArgs, RecordMeasures};
@@ -37,13 +36,11 @@ pub struct RecordsCommand {
     /// column `file`, or PEER's search results).
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    #[command(flatten)]
-    reading: ReadArgs,
     /// Gravity in m/s2, for records in SI units and for PGV.
     #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
     gravity: f64,
     #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     #[command(flatten)]
     measures: MeasureArgs,
     #[command(flatten)]
@@ -54,53 +51,27 @@ pub struct RecordsCommand {
 
 /// One record in the list.
 struct RecordListing {
-    file: String,
-    format: &'static Format,
-    unit: AccelerationUnit,
-    motion: rocking::accelerogram::Accelerogram,
-    pair: Option<String>,
-    /// Whether the study uses it, in a suite.
-    study_component: Option<bool>,
-    /// Remarks from reading; once all are read, also those on the samples.
-    remarks: Vec<Remark>,
-    given: Fallback,
+    /// Its remarks are those of reading; once all are read, also those on the
+    /// samples.
+    member: SuiteMember,
+    /// Whether it is in a suite, and so may be in a pair.
+    in_suite: bool,
 }
 
 impl RecordListing {
-    fn remarked(&self) -> RemarkInput<'_> {
-        let given = self.given;
-        let pair = self.pair.as_deref();
-        RemarkInput {
-            given,
-            ..RemarkInput::of(&self.motion, pair, &self.remarks)
-        }
-    }
-
-    fn member(member: &SuiteMember, in_suite: bool) -> Self {
-        Self {
-            file: member.file.clone(),
-            format: member.format,
-            unit: member.unit,
-            motion: member.accelerogram.clone(),
-            pair: member.pair.clone().filter(|_| in_suite),
-            study_component: in_suite.then_some(member.study_component),
-            remarks: member.remarks.clone(),
-            given: member.given,
-        }
-    }
-
     fn row(&self, gravity_m_s2: f64) -> RecordRow<'_> {
+        let (member, motion) = (&self.member, &self.member.accelerogram);
         RecordRow {
-            file: &self.file,
-            format: self.format.name,
-            units: self.unit.to_string(),
-            dt_s: self.motion.dt_s(),
-            npts: self.motion.samples_g().len(),
-            duration_s: self.motion.duration_s(),
-            pga_g: self.motion.pga_g(),
-            pgv_m_s: self.motion.pgv_m_s(gravity_m_s2),
-            pair: self.pair.as_deref(),
-            study_component: self.study_component,
+            file: &member.file,
+            format: member.format.name,
+            units: member.unit.to_string(),
+            dt_s: motion.dt_s(),
+            npts: motion.samples_g().len(),
+            duration_s: motion.duration_s(),
+            pga_g: motion.pga_g(),
+            pgv_m_s: motion.pgv_m_s(gravity_m_s2),
+            pair: member.pair.as_deref(),
+            study_component: self.in_suite.then_some(member.study_component),
         }
     }
 }
@@ -189,16 +160,17 @@ struct RecordsListing {
 /// [`Failure`] with status 2 when any file was refused, after all are
 /// listed.
 pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
-    let options = args.reading.options(args.gravity);
+    let options = args.input.reading.options(args.gravity);
     let mut listing = RecordsListing { options, ..RecordsListing::default() };
     for path in &args.paths {
         let added = listing.add(path);
         listing.refused.extend(added.err());
     }
     listing.refuse_unused();
-    let processing = args.processing.processing()?;
+    let processing = args.input.processing()?;
     for listed in &mut listing.records {
-        listed.motion = processing.apply(&listed.motion)?;
+        let motion = &mut listed.member.accelerogram;
+        *motion = processing.apply(motion)?;
     }
     let processing = words(&processing);
     listing.remark();
@@ -215,7 +187,7 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
     let mut remarks: Vec<RecordFinding> =
         records.iter().flat_map(RecordFinding::remarks).collect();
     if let Some(measured) = &measured
-        && args.processing.high_pass.is_none()
+        && args.input.high_pass.is_none()
     {
         let baseline = done.unwrap_or("no baseline correction");
         remarks.extend(measured.drifts(baseline));
@@ -245,14 +217,14 @@ pub fn run_records(args: &RecordsCommand) -> Result<(), Failure> {
                 .collect(),
             refused: &listing.refused,
         };
-        args.json.show(&sentence, &found)?;
+        args.json.show(&[&sentence], &found)?;
     }
     if !listing.refused.is_empty() {
         return Err(Failure::input(causes(&listing.refused)));
     }
-    let all = records.iter().map(RecordListing::remarked);
+    let all = records.iter().map(|one| RemarkInput::from(&one.member));
     let remarks = Remarks::of(&all.collect::<Vec<_>>());
-    args.reading.judge(&listing.set_aside, &remarks)
+    args.input.reading.judge(&listing.set_aside, &remarks)
 }
 
 impl From<SuiteError> for RecordFinding {
@@ -268,8 +240,8 @@ impl From<SuiteError> for RecordFinding {
 
 impl RecordFinding {
     fn remarks(listed: &RecordListing) -> impl Iterator<Item = Self> {
-        listed.remarks.iter().map(|remark| Self {
-            file: listed.file.clone(),
+        listed.member.remarks.iter().map(|remark| Self {
+            file: listed.member.file.clone(),
             code: remark.code(),
             line: None,
             message: remark.to_string(),
@@ -291,18 +263,13 @@ impl RecordsListing {
         }
         let records = self.read(&file, &bytes, self.options)?;
         let several = records.len() > 1;
-        self.records.extend(records.into_iter().map(|record| RecordListing {
-            file: match record.channel.filter(|_| several) {
+        self.records.extend(records.into_iter().map(|record| {
+            let file = match record.channel.as_ref().filter(|_| several) {
                 Some(channel) => format!("{file}:{channel}"),
                 None => file.clone(),
-            },
-            format: record.format,
-            unit: record.unit,
-            motion: record.accelerogram,
-            pair: None,
-            study_component: None,
-            remarks: record.remarks,
-            given: record.given,
+            };
+            let member = SuiteMember::of(record, file);
+            RecordListing { member, in_suite: false }
         }));
         Ok(())
     }
@@ -334,7 +301,7 @@ impl RecordsListing {
     /// Refuses what was given if no file takes it and one contradicts it.
     fn refuse_unused(&mut self) {
         let given = |taken: fn(Fallback) -> bool| {
-            self.records.iter().any(|listed| taken(listed.given))
+            self.records.iter().any(|listed| taken(listed.member.given))
         };
         let (dt, unit) = (given(|g| g.dt), given(|g| g.unit));
         self.contradicted.retain(|error| match &error.fault {
@@ -345,7 +312,7 @@ impl RecordsListing {
         let files: BTreeSet<&str> = unused.iter().map(|e| &*e.file).collect();
         // A file of several components has them behind colons.
         self.records.retain(|listed| {
-            let file = listed.file.as_str();
+            let file = listed.member.file.as_str();
             let ends = file.match_indices(':').map(|(end, _)| end);
             let mut ends = ends.chain([file.len()]);
             !ends.any(|end| files.contains(&file[..end]))
@@ -363,8 +330,10 @@ impl RecordsListing {
         }
         for member in survey.members {
             match member {
-                Ok(member) => {
-                    self.records.push(RecordListing::member(&member, false));
+                Ok(mut member) => {
+                    member.pair = None;
+                    let in_suite = false;
+                    self.records.push(RecordListing { member, in_suite });
                 }
                 Err(error) => self.refused.push(error.into()),
             }
@@ -383,16 +352,20 @@ impl RecordsListing {
             study_components: suite.study_components().count(),
             study_rule: suite.study_rule().to_string(),
         });
-        let members = suite.members().iter();
-        self.records.extend(members.map(|m| RecordListing::member(m, true)));
+        let members = suite.members().iter().cloned();
+        let listed = |member| RecordListing { member, in_suite: true };
+        self.records.extend(members.map(listed));
     }
 
     fn remark(&mut self) {
-        let records: Vec<_> =
-            self.records.iter().map(RecordListing::remarked).collect();
+        let records: Vec<_> = self
+            .records
+            .iter()
+            .map(|one| RemarkInput::from(&one.member))
+            .collect();
         let found = rocking_records::remarks_together(&records);
         for (listed, remarks) in self.records.iter_mut().zip(found) {
-            listed.remarks = remarks;
+            listed.member.remarks = remarks;
         }
     }
 }

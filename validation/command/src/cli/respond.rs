@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use rocking::block::Block;
 use rocking::excitation::Excitation;
 use rocking::integrator::{
-    Arithmetic, Assessment, CertifiedFate, Certify, Model, Observe, Outcome,
+    Arithmetic, Assessment, CertifiedFate, Certify, Model, Observe,
     Overturning, Response, Scene, WorkLimit, certify, respond,
     uplift_threshold,
 };
@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use super::excitation::ExcitationArgs;
 use super::limit::{LimitArgs, refused};
+use super::processing::words;
 use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, PlotArg};
 use super::show::number;
@@ -156,44 +157,35 @@ pub fn run_respond(args: &RespondCommand) -> Result<(), Failure> {
             overturn: scene.overturning,
             gravity_m_s2,
             excitation,
-            processing: args.excitation.processing()?,
+            processing: words(&args.excitation.input.processing()?),
             remarks: ground.remarks.as_ref(),
             pga_g,
             intensity_pga: pga_g / threshold,
         },
     };
-    args.json.summarise(&outputs, &sentence(&result), &result)
-}
-
-/// What becomes of the block.
-fn sentence(found: &RespondSummary<'_>) -> String {
-    let (run, alpha) = (&found.response.found, found.scene.alpha_rad);
-    let error = run.error_estimate;
-    let sentence = match run.outcome {
-        Outcome::NoUplift => "The block does not lift off.".to_owned(),
-        Outcome::Rocked { peak_ratio } => format!(
-            "The block rocks and does not overturn. Its peak rotation is {} \
-             rad ({} of alpha), at {} s.",
-            number(alpha * peak_ratio, error.map(|error| alpha * error)),
-            number(peak_ratio, error),
-            number(run.peak_time_s.unwrap_or(0.0), None)
-        ),
-        Outcome::Overturned { time_s, .. } => format!(
-            "The block overturns at {} s.",
-            number(time_s, run.overturning_error_s)
-        ),
+    let run = &result.response.found;
+    let doubt = match (run.assessment(), args.certify) {
+        (Assessment::Clear, _) => "",
+        (_, true) => " Certified: {certified.outcome}.",
+        (_, false) => {
+            " Rounding errors may have changed this result; --certify \
+             settles it."
+        }
     };
-    match (run.assessment(), &found.certified) {
-        (Assessment::Clear, _) => sentence,
-        (_, Some(certified)) => format!(
-            "{sentence} That is in double precision; certified: {}.",
-            certified.outcome
+    let alpha = block.slenderness_rad();
+    let error = run.error_estimate.map(|error| alpha * error);
+    let rotation = number(alpha * run.peak_ratio, error);
+    let sentences = [
+        "The block overturns at {overturning_time_s} s.",
+        &format!(
+            "The block rocks and does not overturn. Its peak rotation is \
+             {rotation} rad ({{edp}} of alpha), at {{peak_time_s}} s."
         ),
-        (_, None) => format!(
-            "{sentence} Rounding errors may have changed this result; \
-             --certify settles it."
-        ),
-    }
+        "The block does not lift off.",
+    ];
+    let sentences = sentences.map(|sentence| sentence.to_owned() + doubt);
+    let sentences = sentences.each_ref().map(String::as_str);
+    args.json.summarise(&outputs, &sentences, &result)
 }
 
 /// The certified outcome, with notes on progress if it takes long.

@@ -124,13 +124,6 @@ impl SiteArgs {
     }
 }
 
-/// Source of the fragilities.
-enum RiskBasis {
-    Files(FragilitySource),
-    /// Median and dispersion.
-    Parameters(f64, f64),
-}
-
 /// Runs `rocking risk`.
 ///
 /// # Errors
@@ -142,58 +135,60 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     if read.filter(|path| *path == standard).count() > 1 {
         bail!("--hazard - and another input -: expected at most one of them");
     }
-    let basis = match args.median.zip(args.dispersion) {
-        None => RiskBasis::Files(args.source.open()?),
-        Some((median, beta)) => RiskBasis::Parameters(median, beta),
+    let source = match args.median {
+        None => Some(args.source.open()?),
+        Some(_) => None,
     };
-    let inputs = args.source.inputs().into_iter();
-    let named = match &basis {
-        RiskBasis::Files(source) => source.inputs(),
-        RiskBasis::Parameters(..) => Vec::new(),
-    };
-    let inputs = inputs.chain(named).chain(args.hazard.clone()).collect();
-    let mut outputs = Outputs::of(inputs);
+    let named = source.iter().flat_map(FragilitySource::inputs);
+    let inputs = args.source.inputs().into_iter().chain(named);
+    let mut outputs = Outputs::of(inputs.chain(args.hazard.clone()).collect());
     let plot = args.plot.open(&mut outputs)?;
-    let hazard = args.hazard(&basis)?;
+    let hazard = args.hazard(source.as_ref())?;
     let options = args.fit.options(QuantileType::default());
-    let fragilities = match &basis {
-        RiskBasis::Files(source) => args
+    let fragilities = match (&source, args.median.zip(args.dispersion)) {
+        (Some(source), _) => args
             .threads
             .run(|| of_source(args, source, options, &hazard))??,
-        RiskBasis::Parameters(median, beta) => {
+        (None, Some((median, beta))) => {
             let error = args.model_error.or(ModelError::none());
-            given(options.shift, *median, *beta, &error)?
+            given(options.shift, median, beta, &error)?
         }
+        (None, None) => bail!("--median: expected --dispersion"),
     };
     let years = args.site.years();
     let found = args.threads.run(|| risk(&hazard, &fragilities, years))??;
     if let Some(out) = plot {
-        out.write(svg(&hazard, &fragilities)?)?;
+        ensure!(
+            fragilities.len() <= MOST_DRAWN,
+            "--plot: {} fragilities: expected at most {MOST_DRAWN}",
+            fragilities.len()
+        );
+        out.write(risk_svg(&hazard, &fragilities))?;
     }
     let sentence = found.fragilities.first().map_or(String::new(), |first| {
         let least = first.annual_frequency_truncation_lower;
-        let most = first.annual_frequency_truncation_upper;
         let drawn = first.sampling.as_ref().map(|own| own.annual_frequency);
         let often = drawn.unwrap_or(Estimate::exact(least));
-        let width =
-            often.high().unwrap_or(most) - often.low().unwrap_or(least);
         format!(
             "Damage is expected {}: {} a year.",
             once_in(&often.map(f64::recip)),
-            number(least, Some(0.1 * width))
+            number(least, None)
         )
     });
-    args.json.show_beside(&outputs, &sentence, &found)
+    args.json.show_beside(&outputs, &[&sentence], &found)
 }
 
 impl RiskCommand {
     /// The hazard curve, or the average of several.
-    fn hazard(&self, basis: &RiskBasis) -> Result<Hazard, Failure> {
+    fn hazard(
+        &self,
+        source: Option<&FragilitySource>,
+    ) -> Result<Hazard, Failure> {
         let all = self.hazard.iter().map(|path| self.site.read(path));
         let mut all = all.collect::<Result<Vec<Hazard>, Failure>>()?;
-        match (self.correlation, basis) {
+        match (self.correlation, source) {
             (None, _) if all.len() == 1 => Ok(all.remove(0)),
-            (Some(correlation), RiskBasis::Files(source)) => {
+            (Some(correlation), Some(source)) => {
                 Ok(average_hazard(&all, &source.im()?, correlation)?)
             }
             (Some(_), _) => bail!(
@@ -210,16 +205,6 @@ impl RiskCommand {
 
 /// Largest number of fragilities in a drawing.
 const MOST_DRAWN: usize = 6;
-
-/// The hazard curve, the fragilities and the risk by intensity.
-fn svg(hazard: &Hazard, all: &[FragilityInput]) -> Result<String, Failure> {
-    ensure!(
-        all.len() <= MOST_DRAWN,
-        "--plot: {} fragilities: expected at most {MOST_DRAWN}",
-        all.len()
-    );
-    Ok(risk_svg(hazard, all))
-}
 
 /// The fragility of given parameters.
 fn given(

@@ -6,7 +6,6 @@ use rocking_procedures::summarise;
 use rocking_statistics::QuantileType;
 
 use super::shared::JsonArg;
-use super::show::number;
 use crate::failure::Failure;
 use crate::input;
 
@@ -42,10 +41,9 @@ pub fn run_sample(args: &SampleCommand) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
     let sample = input::sample(&args.sample)?.extended()?;
     let found = summarise(&sample, &args.at, quantile_type)?;
-    let median = found.boxplot.as_ref().map(|own| number(own.median, None));
-    let sentence = match median {
-        Ok(median) => format!("The median of {} values is {median}.", found.n),
-        Err(reason) => format!("{} values: {reason}.", found.n),
-    };
-    args.json.show(&sentence, &found)
+    let sentences = [
+        "The median of {n} values is {boxplot.median}.",
+        "{n} values: {boxplot.reason}.",
+    ];
+    args.json.show(&sentences, &found)
 }

@@ -4,7 +4,6 @@
 use rocking::block::{Block, Restitution};
 use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_procedures::shaking::Slenderness;
 
 use super::names;
 use super::shared::positive;
@@ -20,14 +19,14 @@ pub struct BlockArgs {
         requires = "p",
         conflicts_with_all = ["width_m", "height_m"]
     )]
-    alpha: Option<f64>,
+    pub alpha: Option<f64>,
     /// Frequency parameter p in rad/s.
     #[arg(
         long,
         value_name = "P",
         conflicts_with_all = ["width_m", "height_m"]
     )]
-    p: Option<f64>,
+    pub p: Option<f64>,
     /// Base width 2b in m.
     #[arg(long, value_name = "2B", requires = "height_m")]
     width_m: Option<f64>,
@@ -37,16 +36,10 @@ pub struct BlockArgs {
 }
 
 impl BlockArgs {
-    /// The first flag given, to be refused if no block is needed.
-    pub fn given(&self) -> Option<&'static str> {
-        let flags = [
-            ("--alpha", self.alpha),
-            ("--p", self.p),
-            ("--width-m", self.width_m),
-            ("--height-m", self.height_m),
-        ];
-        let given = flags.iter().find(|(_, value)| value.is_some());
-        given.map(|(flag, _)| *flag)
+    /// Whether any flag is given.
+    pub fn is_given(&self) -> bool {
+        let all = [self.alpha, self.p, self.width_m, self.height_m];
+        all.iter().any(Option::is_some)
     }
 
     /// The block under gravity g (m/s2).
@@ -64,20 +57,6 @@ impl BlockArgs {
             _ => {
                 bail!("expected --alpha and --p, or --width-m and --height-m")
             }
-        }
-    }
-
-    /// The block; with only `--p`, one whose slenderness is to be fitted.
-    ///
-    /// # Errors
-    /// As [`BlockArgs::block`].
-    pub fn slenderness(
-        &self,
-        gravity_m_s2: f64,
-    ) -> Result<Slenderness, Failure> {
-        match (self.alpha, self.p) {
-            (None, Some(p_rad_s)) => Ok(Slenderness::Fitted { p_rad_s }),
-            _ => Ok(Slenderness::Given(self.block(gravity_m_s2)?)),
         }
     }
 }

@@ -72,5 +72,5 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
         "The code gives {} of {} answers. {verdict}",
         found.answered, found.asked
     );
-    args.json.show(&sentence, &found)
+    args.json.show(&[&sentence], &found)
 }

@@ -30,17 +30,17 @@ pub struct JsonArg {
 }
 
 impl JsonArg {
-    /// Prints a result: as JSON, or behind a sentence.
+    /// Prints a result: as JSON, or as [`text`].
     ///
     /// # Errors
     /// As [`json`], [`text`] and [`print()`].
     pub fn show<T: Serialize>(
         self,
-        sentence: &str,
+        sentences: &[&str],
         result: &T,
     ) -> Result<(), Failure> {
         let json = self.json.then(|| json(result));
-        print(&json.unwrap_or_else(|| text(sentence, result))?)
+        print(&json.unwrap_or_else(|| text(sentences, result))?)
     }
 
     /// Prints a result, unless an output takes standard output.
@@ -50,12 +50,12 @@ impl JsonArg {
     pub fn show_beside<T: Serialize>(
         self,
         outputs: &Outputs,
-        sentence: &str,
+        sentences: &[&str],
         result: &T,
     ) -> Result<(), Failure> {
         match outputs.take_standard_output() {
             true => Ok(()),
-            false => self.show(sentence, result),
+            false => self.show(sentences, result),
         }
     }
 
@@ -67,12 +67,12 @@ impl JsonArg {
     pub fn summarise<T: Serialize>(
         self,
         outputs: &Outputs,
-        sentence: &str,
+        sentences: &[&str],
         result: &T,
     ) -> Result<(), Failure> {
         match self.json && !outputs.take_standard_output() {
             true => say(&json(result)?),
-            false => print_beside(outputs, &text(sentence, result)?),
+            false => print_beside(outputs, &text(sentences, result)?),
         }
     }
 }

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use indexmap::IndexMap;
-use rocking_statistics::Estimate;
 use serde::{Deserialize, Serialize};
+use serde_json::Number;
 
 use crate::failure::Failure;
 use crate::terminal::COMMIT;
@@ -34,13 +34,13 @@ pub fn json<T: Serialize>(result: &T) -> Result<String, Failure> {
     Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 
-/// A result for people: the sentence, a list of named quantities, and a table
-/// for each list of structs.
+/// A result for people: the first sentence whose quantities `{path}` are all
+/// known, a list of named quantities, and a table for each list of structs.
 ///
 /// # Errors
 /// [`Failure`] if the result cannot be serialized.
 pub fn text<T: Serialize>(
-    sentence: &str,
+    sentences: &[&str],
     result: &T,
 ) -> Result<String, Failure> {
     let fields: Fields =
@@ -52,7 +52,9 @@ pub fn text<T: Serialize>(
     });
     let row = |one: NamedCell| vec![one.name, one.cell + " " + one.unit];
     let list: Vec<Vec<String>> = list.into_iter().map(row).collect();
-    let parts = [format!("{sentence}\n"), columns(&list, |_| false)];
+    let sentence = sentences.iter().find_map(|one| filled(one, &fields));
+    let sentence = sentence.unwrap_or_default() + "\n";
+    let parts = [sentence, columns(&list, |_| false)];
     let parts = parts.into_iter().chain(tables);
     let parts: Vec<String> = parts.filter(|part| part.len() > 1).collect();
     Ok(parts.join("\n"))
@@ -64,9 +66,7 @@ pub fn text<T: Serialize>(
 enum Node {
     None,
     Flag(bool),
-    Count(u64),
-    Whole(i64),
-    Number(f64),
+    Number(Number),
     Text(String),
     List(Vec<Self>),
     Struct(Fields),
@@ -74,30 +74,32 @@ enum Node {
 
 type Fields = IndexMap<String, Node>;
 
-/// Names of quantities by the end of their path; an empty one leaves the
-/// quantity to the JSON.
+/// A sentence with its quantities; none if one is not known.
+fn filled(sentence: &str, fields: &Fields) -> Option<String> {
+    let mut parts = sentence.split('{');
+    let mut text = parts.next()?.to_owned();
+    for part in parts {
+        let (path, rest) = part.split_once('}')?;
+        let mut keys = path.split('.');
+        let first = fields.get(keys.next()?)?;
+        let found = keys.try_fold(first, |node, key| match node {
+            Node::Struct(fields) => fields.get(key),
+            Node::List(all) if key == "last" => all.last(),
+            _ => None,
+        });
+        text += &cell(found?, "95 % interval ")?;
+        text += rest;
+    }
+    Some(text)
+}
+
+/// Names of quantities by the end of their path, and units by the end of a
+/// key; an empty name leaves the quantity to the JSON.
 static VOCABULARY: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     let lines = include_str!("vocabulary.txt").lines();
     let entry = |line: &'static str| line.split_once('=');
     lines.filter_map(entry).map(|(k, n)| (k.trim(), n.trim())).collect()
 });
-
-/// Units that end the name of a field, the longer ones first.
-const UNITS: [(&str, &str); 13] = [
-    ("_rad_s", "rad/s"),
-    ("_cm_s", "cm/s"),
-    ("_m_s2", "m/s2"),
-    ("_m_s", "m/s"),
-    ("_per_year", "1/year"),
-    ("_years", "years"),
-    ("_percent", "%"),
-    ("_rad", "rad"),
-    ("_hz", "Hz"),
-    ("_s", "s"),
-    ("_m", "m"),
-    ("_n", "N"),
-    ("_g", "g"),
-];
 
 /// The name of a quantity, below that of the struct which holds it, and its
 /// unit; none if it is left to the JSON.
@@ -105,9 +107,10 @@ fn heading(path: &str, outer: &str) -> Option<(String, &'static str)> {
     let mut ends = path.match_indices('.').map(|(dot, _)| &path[dot + 1..]);
     let known = ends.find_map(|end| VOCABULARY.get(end));
     let key = path.rsplit('.').next().unwrap_or(path);
-    let unit = UNITS.iter().find(|(end, _)| key.ends_with(end));
-    let (end, unit) = unit.copied().unwrap_or_default();
-    let own = key.strip_suffix(end).unwrap_or(key).replace('_', " ");
+    let unit = |(at, _)| Some((at, *VOCABULARY.get(&key[at..])?));
+    let unit = key.match_indices('_').find_map(unit);
+    let (end, unit) = unit.unwrap_or((key.len(), ""));
+    let own = key[..end].replace('_', " ");
     let name = match (known, outer) {
         (Some(name), _) => (*name).to_owned(),
         (None, "") => capital(&own),
@@ -138,15 +141,19 @@ fn cells(
     for (key, value) in fields {
         let path = format!("{path}.{key}");
         let Some((name, unit)) = heading(&path, outer) else { continue };
-        match (value, cell(value)) {
+        match (value, cell(value, "")) {
             (Node::List(all), _)
                 if matches!(all[..], [Node::Struct(_), ..]) =>
             {
                 found.extend(of_list(&path, &name, all));
             }
-            (Node::Struct(fields), None) => {
-                found.extend(cells(&path, &name, fields, of_list));
-            }
+            (Node::Struct(fields), None) => match fields.get("reason") {
+                Some(Node::Text(reason)) if fields.len() == 1 => {
+                    let cell = format!("none: {reason}");
+                    found.push(NamedCell { name, cell, unit });
+                }
+                _ => found.extend(cells(&path, &name, fields, of_list)),
+            },
             (_, Some(cell)) => found.push(NamedCell { name, cell, unit }),
             (_, None) => {}
         }
@@ -162,7 +169,7 @@ fn listed(path: &str, name: &str, all: &[Node]) -> Vec<NamedCell> {
         let Node::Struct(fields) = one else { continue };
         let mut rest = fields.clone();
         let first = rest.shift_remove_index(0);
-        let first = first.and_then(|(_, first)| cell(&first));
+        let first = first.and_then(|(_, first)| cell(&first, ""));
         let first = first.unwrap_or_default();
         let behind = |one: NamedCell| NamedCell {
             name: format!("{name} {first}: {}", one.name),
@@ -209,43 +216,29 @@ fn table(path: &str, title: &str, all: &[Node]) -> String {
 }
 
 /// A value in words; none of nothing and of a struct of several quantities.
-fn cell(value: &Node) -> Option<String> {
+fn cell(value: &Node, called: &str) -> Option<String> {
     Some(match value {
         Node::None => return None,
         Node::Flag(yes) => String::from(if *yes { "yes" } else { "no" }),
-        Node::Count(n) => n.to_string(),
-        Node::Whole(n) => n.to_string(),
         // A name with a line break stays in its row.
         Node::Text(text) => text.replace('\n', "\\u000a"),
-        Node::Number(x) => number(*x, None),
+        Node::Number(x) if x.is_f64() => number(x.as_f64()?, None),
+        Node::Number(n) => n.to_string(),
         Node::List(all) if all.is_empty() => return None,
         Node::List(all) => {
-            let cells = all.iter().filter_map(cell);
+            let cells = all.iter().filter_map(|one| cell(one, called));
             cells.collect::<Vec<_>>().join(" ")
         }
         Node::Struct(fields) => {
             let at = |name: &str| match fields.get(name)? {
-                Node::Number(x) => Some(*x),
-                Node::Count(n) => Some(*n as f64),
+                Node::Number(x) => x.as_f64(),
                 _ => None,
             };
-            if let Some(Node::Text(reason)) = fields.get("reason") {
-                return Some(format!("none: {reason}"));
-            }
             let point = at("point").or_else(|| at("value"))?;
             fields.get("low")?;
-            interval(point, [at("low"), at("high")], "")
+            interval(point, [at("low"), at("high")], called)
         }
     })
-}
-
-/// Name of an interval in a sentence.
-pub const INTERVAL: &str = "95 % interval ";
-
-/// An estimate with its interval in brackets, if it has one, behind what the
-/// interval is called.
-pub fn estimate(found: &Estimate, called: &str) -> String {
-    interval(found.value(), [found.low(), found.high()], called)
 }
 
 /// A number with the ends of its interval: two digits of its width.
@@ -297,7 +290,7 @@ mod tests {
             "mine": { "by": [{ "on": "M", "slope": 0.5 }], "used": 3 },
             "other": { "reason": "too few" },
         });
-        let expected = "The block rocks.\n\n\
+        let expected = "It has 0.40 (95 % interval 0.30 to 0.50).\n\n\
             Slenderness alpha  0.15 rad\n\
             Dispersion         0.40 (0.30 to 0.50)\n\
             Mine, used         3\n\
@@ -306,7 +299,10 @@ mod tests {
             Rows:\nIntensity measure    New (g)  Left out\n\
             pga                 0.123457         -\n\
             sa:1               1.23457e7         3\n";
-        assert_eq!(text("The block rocks.", &result).unwrap(), expected);
+        assert_eq!(
+            text(&["Not {none}.", "It has {dispersion}."], &result).unwrap(),
+            expected
+        );
     }
 
     #[test]

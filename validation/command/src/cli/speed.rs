@@ -9,7 +9,6 @@ use rocking_records::{ReadOptions, SetAside};
 use serde::Serialize;
 
 use super::shared::JsonArg;
-use super::show::number;
 use crate::failure::Failure;
 use crate::terminal::progress;
 use rocking_common::curves::Execution;
@@ -117,15 +116,6 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
     if let Some(out) = table {
         out.write(throughput::text(&many)?)?;
     }
-    let own = singles.iter().find(|one| one.key() == BASE);
-    let sentence = own.map_or(String::new(), |own| {
-        format!(
-            "One analysis takes {} s of processor time in the median, with a \
-             median error of {} of the peak.",
-            number(own.cpu_s, Some(0.01 * own.cpu_s)),
-            number(own.peak_error, Some(0.1 * own.peak_error))
-        )
-    });
     let found = SpeedSummary {
         isa: Isa::best().name(),
         ratios_to: BASE.join(", "),
@@ -135,7 +125,9 @@ pub fn run_speed(args: &SpeedCommand) -> Result<(), Failure> {
         kernel_and_loop,
         peak_memory_mib: peak_memory_mib(),
     };
-    args.json.show(&sentence, &found)
+    let sentence = "Processor times with {isa}, and their ratios to \
+                    {ratios_to}.";
+    args.json.show(&[sentence], &found)
 }
 
 /// The records that are analysed, and what was set aside beside them.

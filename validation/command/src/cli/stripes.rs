@@ -7,7 +7,7 @@ use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
-use super::capacities::EdpLevels;
+use super::capacities::{EdpLevels, intensities};
 use super::names;
 use super::shared::{JsonArg, PlotArg};
 use crate::failure::Failure;
@@ -43,7 +43,12 @@ pub struct StripesCommand {
     #[arg(long, value_parser = names::intensity(), default_value = "pga")]
     im: Intensity,
     /// Intensities, FIRST:LAST:STEP or separated by commas.
-    #[arg(long, value_name = "LEVELS", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        value_parser = intensities,
+        allow_hyphen_values = true
+    )]
     levels: EdpLevels,
     /// EDP level whose exceedances --counts counts; `inf` is overturning.
     #[arg(long, value_name = "E", requires = "counts")]
@@ -78,23 +83,19 @@ pub fn run_stripes(args: &StripesCommand) -> Result<(), Failure> {
     let plot = args.plot.open(&mut outputs)?;
     let (table, curves) = input::ida(&args.ida, args.im)?;
     let curves = curves.into_curves();
-    let stripes = stripes(&curves, &args.levels.0, args.at)?;
+    let stripes = stripes(&curves, &args.levels, args.at)?;
     let axis = args.im.row().label;
     if let Some(out) = plot {
         out.write(stripes_svg(&curves, &stripes, axis))?;
     }
     if let (Some(out), Some(edp)) = (counts, args.at) {
-        out.write(outcomes(&table, &curves, &args.levels.0, edp)?)?;
+        out.write(outcomes(&table, &curves, &args.levels, edp)?)?;
     }
     let found = StripesSummary { n: curves.len(), edp: args.at, stripes };
-    let sentence = found.stripes.last().map_or(String::new(), |last| {
-        let (intensity, over, n) = (last.intensity, last.overturned, last.n);
-        let axis = args.im.row().words;
-        format!(
-            "At {axis} = {intensity} the block overturns under {over} of {n} records."
-        )
-    });
-    args.json.show_beside(&outputs, &sentence, &found)
+    let sentence = "At an intensity of {stripes.last.intensity} the block \
+                    overturns under {stripes.last.overturned} of \
+                    {stripes.last.n} records.";
+    args.json.show_beside(&outputs, &[sentence], &found)
 }
 
 /// The table of the outcomes of the records.

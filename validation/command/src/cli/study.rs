@@ -8,8 +8,7 @@ use rocking::integrator::Overturning;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::names;
-use super::processing::ProcessingArgs;
-use super::reading::ReadArgs;
+use super::processing::RecordArgs;
 use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
 use crate::failure::{AtPlace as _, Failure, bail, ensure};
@@ -47,9 +46,7 @@ pub struct StudyCommand {
     #[arg(long, value_name = "PATH", requires = "ordinary")]
     pulse: Option<PathBuf>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     /// Coefficient of restitution, ratio of angular velocities.
     #[arg(long, default_value_t = RESTITUTION)]
     eta: f64,
@@ -69,7 +66,7 @@ pub struct StudyCommand {
     /// same dimensionless steps for every block.
     #[arg(
         long,
-        value_parser = names::arm(),
+        value_parser = names::named(Arm::ALL, Arm::name, [""; 3]),
         value_delimiter = ',',
         default_value = "A,B,C"
     )]
@@ -113,11 +110,11 @@ pub fn run_study(args: &StudyCommand) -> Result<(), Failure> {
 
 /// The suites that the options name.
 fn suites(args: &StudyCommand) -> Result<[StudySuite; 2], Failure> {
-    let processing = args.processing.processing()?;
-    let options = args.reading.options(STANDARD_GRAVITY_M_S2);
+    let processing = args.input.processing()?;
+    let options = args.input.reading.options(STANDARD_GRAVITY_M_S2);
     let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
         let suite = StudySuite::read(kind, path, options, &processing)?;
-        args.reading.judge(&suite.set_aside, &suite.remarks)?;
+        args.input.reading.judge(&suite.set_aside, &suite.remarks)?;
         Ok(suite)
     };
     match (&args.ordinary, &args.pulse) {
@@ -128,24 +125,10 @@ fn suites(args: &StudyCommand) -> Result<[StudySuite; 2], Failure> {
         _ => {
             let unused = "--ordinary and --pulse, but for the records of a \
                           suite";
-            args.reading.refuse_unused(args.processing, unused)?;
+            args.input.refuse_unused(unused)?;
             Ok(StudySuite::embedded()?)
         }
     }
-}
-
-/// The study that the options ask for.
-fn computed(plan: Plan, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
-    // Drawn on a terminal only.
-    let progress = ProgressBar::new(0);
-    if let Ok(style) =
-        ProgressStyle::with_template("{bar:40} {pos}/{len} chains, {eta} left")
-    {
-        progress.set_style(style);
-    }
-    let study = logged(&progress, || Study::run(plan, suites, &progress))?;
-    progress.finish_and_clear();
-    Ok(study)
 }
 
 fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
@@ -160,7 +143,18 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         }
         None
     } else {
-        refuse_foreign(&args.out)?;
+        // A killed run leaves an incomplete folder, which its remains
+        // identify.
+        if !is_interrupted(&args.out)
+            && let Some(name) = output::foreign(&args.out)
+        {
+            bail!(
+                "cannot write {}: it contains {name}, which no study wrote: \
+                 expected a new or an empty folder, or one that `rocking \
+                 study` wrote",
+                args.out.display()
+            );
+        }
         Some(OutputFolder::open(&args.out)?)
     };
     let proof = match &args.proof {
@@ -168,7 +162,14 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         None => Proof::find(&args.out.join("data"))?,
     };
     let suites = suites(args)?;
-    let study = computed(plan, &suites)?;
+    // Drawn on a terminal only.
+    let bar = ProgressBar::new(0);
+    let template = "{bar:40} {pos}/{len} chains, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    let study = logged(&bar, || Study::run(plan, &suites, &bar))?;
+    bar.finish_and_clear();
     let signatures = Signatures { commit: COMMIT, ..args.signatures.clone() };
     let lab = args.out.join(LAB).is_file();
     let files = output::files(&study, proof.as_ref(), &signatures, lab)?;
@@ -198,22 +199,6 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
             args.out.join("index.html").display()
         ))
     }
-}
-
-/// Refuses a folder that is neither new nor empty nor of an earlier report.
-fn refuse_foreign(out: &Path) -> Result<(), Failure> {
-    // A killed run leaves an incomplete folder, which its remains identify.
-    if !is_interrupted(out)
-        && let Some(name) = output::foreign(out)
-    {
-        bail!(
-            "cannot write {}: it contains {name}, which no study wrote: \
-             expected a new or an empty folder, or one that `rocking study` \
-             wrote",
-            out.display()
-        );
-    }
-    Ok(())
 }
 
 /// Fails if the report in `out` is not these files.

@@ -3,12 +3,8 @@
 use std::path::PathBuf;
 
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_records::SetAside;
-use serde::Serialize;
 
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
-use super::show::text;
+use super::processing::{RecordArgs, words};
 use crate::failure::Failure;
 use crate::terminal::say;
 use crate::threads::with_threads;
@@ -16,6 +12,7 @@ use rocking_common::files::OutputFolder;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
+use rocking_common::words::columns;
 
 /// Suites of records as files.
 #[derive(clap::Args)]
@@ -40,24 +37,7 @@ struct SuiteExportCommand {
     #[arg(long, value_name = "PATH")]
     suite: Option<PathBuf>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
-}
-
-/// The files that were written.
-#[derive(Serialize)]
-struct SuiteFiles {
-    suites: Vec<SuiteFile>,
-    /// Files set aside of the user's suite.
-    set_aside: Option<SetAside>,
-}
-
-#[derive(Serialize)]
-struct SuiteFile {
-    suite: String,
-    records: usize,
-    index: String,
+    input: RecordArgs,
 }
 
 /// Runs `rocking suite`.
@@ -67,30 +47,34 @@ struct SuiteFile {
 pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let SuiteAction::Export(args) = &args.action;
     let mut files = Vec::new();
-    let mut shown = SuiteFiles { suites: Vec::new(), set_aside: None };
-    let mut add = |name: &str, rows: Vec<export::ExportRow<'_>>| {
-        shown.suites.push(SuiteFile {
-            suite: name.to_owned(),
-            records: rows.len(),
-            index: args.out.join(format!("{name}.csv")).display().to_string(),
-        });
-        files.extend(export::files(name, &rows)?);
+    let mut rows =
+        vec![["Suite", "Records", "Index"].map(String::from).into()];
+    let mut aside = String::new();
+    let mut add = |name: &str, members: Vec<export::ExportRow<'_>>| {
+        let index = args.out.join(format!("{name}.csv"));
+        let records = members.len().to_string();
+        rows.push(vec![name.into(), records, index.display().to_string()]);
+        files.extend(export::files(name, &members)?);
         Ok::<(), Failure>(())
     };
     match &args.suite {
         Some(path) => {
-            let processing = args.processing.processing()?;
-            let options = args.reading.options(STANDARD_GRAVITY_M_S2);
+            let processing = args.input.processing()?;
+            let options = args.input.reading.options(STANDARD_GRAVITY_M_S2);
             let suite = read_suite(path, options)?;
             let suite = suite.processed(&processing)?;
-            args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
+            args.input
+                .reading
+                .judge(suite.set_aside(), &Remarks::on(&suite))?;
             let done = words(&processing);
             add(suite.name(), export::members(&suite, done.as_deref()))?;
-            shown.set_aside = Some(suite.set_aside().clone());
+            if !suite.set_aside().is_empty() {
+                aside = format!("Files set aside: {}\n", suite.set_aside());
+            }
         }
         None => {
             let without = "--suite: the embedded suites need no correction";
-            args.reading.refuse_unused(args.processing, without)?;
+            args.input.refuse_unused(without)?;
             let ordinary = with_threads(None, rocking_synthesis::ordinary)??;
             let pulse = with_threads(None, rocking_synthesis::pulse)??;
             add("ordinary", export::pairs(&ordinary))?;
@@ -101,6 +85,6 @@ pub fn run_suite(args: &SuiteCommand) -> Result<(), Failure> {
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
     let files = files.into_iter().map(|(path, text)| (path, text.into()));
     folder.write(&files.collect(), &[&last])?;
-    let sentence = format!("The records are in {}.", args.out.display());
-    say(&text(&sentence, &shown)?)
+    let (out, table) = (args.out.display(), columns(&rows, |k| k == 1));
+    say(&format!("The records are in {out}.\n{aside}\n{table}"))
 }

@@ -12,7 +12,8 @@ use super::shared::{ThreadsArg, positive};
 use super::{blocks, names};
 use crate::failure::{Failure, bail, ensure};
 use crate::sweep::{
-    self, Content, LevelSteps, SweepBlock, SweepFolder, SweepRequest,
+    self, Content, LevelSteps, SCHEMA, SweepBlock, SweepFolder, SweepPlan,
+    TILE_CURVES,
 };
 use crate::terminal::{SOFTWARE, note, say};
 use crate::threads::{until, with_threads};
@@ -162,7 +163,7 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
             id: row.id,
             alpha_rad: row.block.slenderness_rad(),
             p_rad_s: row.block.frequency_rad_s(),
-            eta: row.eta.unwrap_or(args.eta),
+            eta: row.cells.eta.unwrap_or(args.eta),
         }),
         _ => bail!(
             "{}: a sample: expected none, since a sweep computes its own \
@@ -176,19 +177,22 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
     let suite: Suite<Profile> =
         profiles::<Failure>(&args.suite, read, &Processing::default())?;
     args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
-    let wanted = SweepRequest {
-        blocks: &blocks,
-        suite: &suite,
-        place: &args.suite,
-        read,
-        demands: args.demands.clone(),
+    let by_default =
+        TILE_CURVES.div_ceil(suite.study_components().count().max(1));
+    let plan = SweepPlan {
+        schema: SCHEMA,
+        software: SOFTWARE.into(),
         levels: args
             .step_pga_g
             .map_or(LevelSteps::StepIm(args.step_im), LevelSteps::StepPgaG),
+        demands: args.demands.clone(),
         rows: args.rows,
-        tile_blocks: args.tile_blocks,
+        blocks,
+        records: Vec::new(),
+        events: Vec::new(),
+        tile_blocks: args.tile_blocks.unwrap_or(by_default),
     };
-    let planned = sweep::SweepPlan::write(&wanted, &args.out, SOFTWARE)?;
+    let planned = plan.write(&suite, (&args.suite, read), &args.out)?;
     let plan = &planned.plan;
     let set_aside = match suite.set_aside() {
         none if none.is_empty() => String::new(),

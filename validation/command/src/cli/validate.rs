@@ -13,8 +13,7 @@ use rocking_records::intensity::IntensityMeasure as M;
 use rocking_records::{RemarkInput, SuiteError};
 
 use super::names;
-use super::processing::{ProcessingArgs, words};
-use super::reading::ReadArgs;
+use super::processing::{RecordArgs, words};
 use super::scene::{BlockArgs, Eta};
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg, positive};
 use super::show::json;
@@ -74,9 +73,7 @@ pub struct ValidateCommand {
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,
     #[command(flatten)]
-    reading: ReadArgs,
-    #[command(flatten)]
-    processing: ProcessingArgs,
+    input: RecordArgs,
     #[command(flatten)]
     bootstrap: BootstrapArgs,
     #[command(flatten)]
@@ -125,7 +122,10 @@ fn in_threads(args: &ValidateCommand) -> Result<(), Failure> {
 
 impl ValidateCommand {
     fn options(&self) -> Result<TestOptions, Failure> {
-        let slenderness = self.block.slenderness(self.gravity)?;
+        let slenderness = match (self.block.alpha, self.block.p) {
+            (None, Some(p_rad_s)) => Slenderness::Fitted { p_rad_s },
+            _ => Slenderness::Given(self.block.block(self.gravity)?),
+        };
         let measures = match self.im.as_slice() {
             [] => M::usual_of_tests(),
             given => given.to_vec(),
@@ -150,7 +150,7 @@ impl ValidateCommand {
 
     /// The tests, and the remarks on their motions.
     fn tests(&self) -> Result<(Vec<ShakingTest>, Remarks), Failure> {
-        let options = self.reading.options(self.gravity);
+        let options = self.input.reading.options(self.gravity);
         let survey = visit(&self.tests, options, Ok::<_, SuiteError>)?;
         let members = survey.members.iter().flatten();
         let remarks = members.map(RemarkInput::from).collect::<Vec<_>>();
@@ -158,10 +158,10 @@ impl ValidateCommand {
         let table = TestTable {
             path: &self.tests.display().to_string(),
             fate: &self.fate,
-            processing: self.processing.processing()?,
+            processing: self.input.processing()?,
         };
         let tests = table.tests(survey.members)?;
-        self.reading.judge(&survey.set_aside, &remarks)?;
+        self.input.reading.judge(&survey.set_aside, &remarks)?;
         Ok((tests, remarks))
     }
 
@@ -174,7 +174,7 @@ impl ValidateCommand {
             ("Program", Some(SOFTWARE.to_owned())),
             ("Table of tests", Some(table)),
             ("Column of the fates", Some(self.fate.clone())),
-            ("Processing", words(&self.processing.processing()?)),
+            ("Processing", words(&self.input.processing()?)),
             ("Remarks", remarks.words()),
             ("Draws of the intervals", Some(draws.replicates.to_string())),
             ("Repetition of the draws", Some(draws.seed.to_string())),

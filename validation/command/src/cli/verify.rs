@@ -60,8 +60,8 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     };
     let outcomes = run_all(&cases);
     let found = VerifySummary::of(&outcomes);
-    let sentence = format!("{} of {} cases pass.", found.passed, found.of);
-    args.json.summarise(&Outputs::default(), &sentence, &found)?;
+    let sentence = "{passed} of {of} cases pass.";
+    args.json.summarise(&Outputs::default(), &[sentence], &found)?;
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
@@ -120,7 +120,7 @@ fn stale(path: &Path) -> Failure {
 }
 
 /// Results of the cases.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct VerifySummary<'a> {
     cases: Vec<CaseMargin<'a>>,
     messages: Vec<CaseMessage<'a>>,
@@ -161,48 +161,34 @@ struct VerdictCount<'a> {
 
 impl<'a> VerifySummary<'a> {
     fn of(outcomes: &'a [CaseOutcome]) -> Self {
-        let judged = |outcome: &'a CaseOutcome| CaseMargin {
-            case: &outcome.id,
-            verdict: outcome.verdict.name(),
-            margin: outcome.worst_margin(),
-            wrong_models_rejected: outcome
-                .rejections
-                .iter()
-                .filter(|r| r.margin > 1.0)
-                .count(),
-        };
-        let said = |outcome: &'a CaseOutcome| {
-            let all = outcome.messages.iter().flat_map(|all| all.lines());
-            all.map(|message| CaseMessage { case: &outcome.id, message })
-        };
-        let bounds = |outcome: &'a CaseOutcome| {
-            let all = outcome.bounds_to_look_at().into_iter();
-            all.map(|check| CloseBound {
-                case: &outcome.id,
-                quantity: &check.quantity,
-                margin: check.margin,
-            })
-        };
+        let mut found = Self { of: outcomes.len(), ..Self::default() };
         let mut kinds: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for outcome in outcomes {
-            let key = (outcome.kind.name(), outcome.verdict.name());
-            *kinds.entry(key).or_default() += 1;
+            let (case, verdict) = (&*outcome.id, outcome.verdict.name());
+            let rejected = outcome.rejections.iter();
+            let rejected = rejected.filter(|r| r.margin > 1.0);
+            found.cases.push(CaseMargin {
+                case,
+                verdict,
+                margin: outcome.worst_margin(),
+                wrong_models_rejected: rejected.count(),
+            });
+            let said = outcome.messages.iter().flat_map(|all| all.lines());
+            let said = said.map(|message| CaseMessage { case, message });
+            found.messages.extend(said);
+            let close = outcome.bounds_to_look_at().into_iter();
+            found.bounds_to_look_at.extend(close.map(|check| CloseBound {
+                case,
+                quantity: &check.quantity,
+                margin: check.margin,
+            }));
+            *kinds.entry((outcome.kind.name(), verdict)).or_default() += 1;
+            found.passed += usize::from(outcome.verdict == CaseVerdict::Pass);
         }
         let kinds = kinds.into_iter();
-        let passed = |o: &&CaseOutcome| o.verdict == CaseVerdict::Pass;
-        Self {
-            cases: outcomes.iter().map(judged).collect(),
-            messages: outcomes.iter().flat_map(said).collect(),
-            bounds_to_look_at: outcomes.iter().flat_map(bounds).collect(),
-            kinds: kinds
-                .map(|((kind, verdict), cases)| VerdictCount {
-                    kind,
-                    verdict,
-                    cases,
-                })
-                .collect(),
-            passed: outcomes.iter().filter(passed).count(),
-            of: outcomes.len(),
-        }
+        let count =
+            |((kind, verdict), cases)| VerdictCount { kind, verdict, cases };
+        found.kinds = kinds.map(count).collect();
+        found
     }
 }

@@ -20,13 +20,13 @@ use rocking_common::suites::inputs::{BLOCK_SAMPLES, reread, sha256_hex};
 mod check;
 
 /// Version of the plan's shape.
-const SCHEMA: u32 = 6;
+pub const SCHEMA: u32 = 6;
 
 /// Replicates of the bootstrap of a fragility's parameters.
 pub(super) const REPLICATES: usize = 400;
 
 /// Curves of a tile, approximately, if the number of its blocks is not given.
-const TILE_CURVES: usize = 1000;
+pub const TILE_CURVES: usize = 1000;
 
 /// Name of the suite in the plan's folder.
 const SUITE: &str = "suite";
@@ -35,7 +35,8 @@ const SUITE: &str = "suite";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SweepPlan {
-    schema: u32,
+    /// Version of its shape.
+    pub schema: u32,
     /// Program that made the plan, with its commit; it makes the tiles, too.
     pub software: String,
     /// Levels of a curve.
@@ -50,9 +51,9 @@ pub struct SweepPlan {
     pub records: Vec<(String, String)>,
     /// Their earthquakes; empty if the suite does not state them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    events: Vec<String>,
+    pub events: Vec<String>,
     /// Blocks of a tile; the last tile may have fewer.
-    tile_blocks: usize,
+    pub tile_blocks: usize,
 }
 
 /// A block of a plan.
@@ -99,56 +100,27 @@ pub struct SweepFolder {
     pub block_samples: usize,
 }
 
-/// Input of a plan.
-pub struct SweepRequest<'a> {
-    /// The blocks.
-    pub blocks: &'a [SweepBlock],
-    /// The suite.
-    pub suite: &'a Suite<Profile>,
-    /// Its folder, index or zip.
-    pub place: &'a Path,
-    /// How its records are read.
-    pub read: ReadOptions,
-    /// Demands.
-    pub demands: Vec<f64>,
-    /// Levels of a curve.
-    pub levels: LevelSteps,
-    /// Whether every level is kept.
-    pub rows: bool,
-    /// Blocks of a tile.
-    pub tile_blocks: Option<usize>,
-}
-
 impl SweepPlan {
-    /// Writes a plan and packs the suite into its folder.
+    /// Writes a plan without records and packs the suite, which is read from
+    /// a place, into its folder.
     ///
     /// # Errors
     /// [`Failure`] for a repeated block or demand, if the folder has another
     /// plan already, and if a record cannot be packed or a file cannot be
     /// written.
     pub fn write(
-        wanted: &SweepRequest<'_>,
+        mut self,
+        suite: &Suite<Profile>,
+        (place, read): (&Path, ReadOptions),
         folder: &Path,
-        software: &str,
     ) -> Result<SweepFolder, Failure> {
-        let members: Vec<_> = wanted.suite.study_components().collect();
-        let by_default = TILE_CURVES.div_ceil(members.len().max(1));
+        let members: Vec<_> = suite.study_components().collect();
         let events: Option<Vec<String>> =
             members.iter().map(|member| member.event.clone()).collect();
-        let mut plan = Self {
-            schema: SCHEMA,
-            software: software.into(),
-            levels: wanted.levels,
-            demands: wanted.demands.clone(),
-            rows: wanted.rows,
-            blocks: wanted.blocks.to_vec(),
-            records: Vec::with_capacity(members.len()),
-            events: events.unwrap_or_default(),
-            tile_blocks: wanted.tile_blocks.unwrap_or(by_default),
-        };
+        self.events = events.unwrap_or_default();
         // Refused before the records are packed.
-        plan.check_settings()?;
-        plan.check_blocks()?;
+        self.check_settings()?;
+        self.check_blocks()?;
         let path = folder.join("plan.json");
         let there = fs::read_to_string(&path).ok();
         let write = |path: &str, text: &str| match there {
@@ -164,18 +136,17 @@ impl SweepPlan {
         let event = members.iter().any(|member| member.event.is_some());
         let own = own.map(|(name, _)| &**name).chain(event.then_some("event"));
         let mut packing = export::Packing::new(SUITE, own);
-        let (place, read, none) =
-            (wanted.place, wanted.read, Processing::default());
+        let none = Processing::default();
         reread(place, read, &none, &members, |motion, member| {
             let row = export::member_of(motion, member);
             let (path, text) = packing.add(&row)?;
             let sum = sha256_hex(text.as_bytes());
-            plan.records.push((motion.name().to_owned(), sum));
+            self.records.push((motion.name().to_owned(), sum));
             Ok::<_, Failure>(write(&path, &text)?)
         })?;
         let (index, text) = packing.finish();
         write(&index, &text)?;
-        let text = plan.text();
+        let text = self.text();
         ensure!(
             there.is_none_or(|there| there == text),
             "{}: contains another plan; expected an empty folder, or the \

@@ -42,17 +42,18 @@ fn plan(folder: &Path, tile_blocks: usize) -> SweepFolder {
         })
         .collect();
     let (suite, place, read) = suite(folder);
-    let wanted = SweepRequest {
-        blocks: &blocks,
-        suite: &suite,
-        place: &place,
-        read,
-        demands: vec![0.35, 1.0],
+    let plan = SweepPlan {
+        schema: SCHEMA,
+        software: BUILD.into(),
         levels: LevelSteps::StepIm(0.05),
+        demands: vec![0.35, 1.0],
         rows: true,
-        tile_blocks: Some(tile_blocks),
+        blocks,
+        records: Vec::new(),
+        events: Vec::new(),
+        tile_blocks,
     };
-    SweepPlan::write(&wanted, &folder.join("plan"), BUILD).unwrap()
+    plan.write(&suite, (&place, read), &folder.join("plan")).unwrap()
 }
 
 /// The program of all plans and tiles here.

@@ -15,7 +15,6 @@ use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::Stripe;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, PlotArg, ThreadsArg};
-use crate::cli::show::{INTERVAL, estimate};
 use crate::failure::{AtPlace as _, Failure};
 use crate::input;
 use rocking_common::files::Outputs;
@@ -73,13 +72,9 @@ pub(super) fn run_fragility_counts(
     if let Some(out) = plot {
         out.write(args.threads.run(|| counted.svg(&found, draws))??)?;
     }
-    let sentence = format!(
-        "The median is {}, the dispersion {}; {} outcomes.",
-        estimate(&found.median, INTERVAL),
-        estimate(&found.dispersion, ""),
-        found.n
-    );
-    args.json.show_beside(&outputs, &sentence, &found)
+    let sentence = "The fragility has a median of {median} and, above a shift \
+                    of {fitted.shift}, a dispersion of {dispersion}.";
+    args.json.show_beside(&outputs, &[sentence], &found)
 }
 
 /// A table of stripes.

@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::builder::TypedValueParser;
-use rocking_exchange::{ExchangeFormat, Id};
+use rocking_exchange::{BlockFragility, ExchangeFormat, Id};
 use rocking_procedures::ModelError;
 use rocking_statistics::QuantileType;
 use serde::Serialize;
@@ -28,19 +27,17 @@ pub(super) struct FragilityExportCommand {
     #[command(flatten)]
     model_error: ModelErrorArgs,
     /// Format of the file.
-    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    #[arg(long, value_name = "FORMAT", value_parser = named(
+        ExchangeFormat::ALL,
+        |format| format.name,
+        ExchangeFormat::ALL.iter().map(|format| format.help),
+    ))]
     format: &'static ExchangeFormat,
     /// The file; `-` is standard output, and then nothing else is printed.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
     json: JsonArg,
-}
-
-/// Formats by name.
-fn formats() -> impl TypedValueParser<Value = &'static ExchangeFormat> {
-    let all = ExchangeFormat::ALL;
-    named(all, |format| format.name, all.iter().map(|format| format.help))
 }
 
 #[derive(Serialize)]
@@ -79,7 +76,10 @@ pub(super) fn run_fragility_export(
     let mut options = args.fit.options(QuantileType::default());
     options.family = source.family(args.dispersion.dispersion);
     let model_error = args.model_error.or(ModelError::default());
-    let fragilities = source.fragilities(&options, model_error)?;
+    let fragilities = source.all(&options)?.into_iter();
+    let fragilities: Vec<BlockFragility> = fragilities
+        .map(|(own, _)| BlockFragility { model_error, ..own })
+        .collect();
     let texts = args.format.texts(&fragilities)?;
     file.write(texts.main)?;
     if let (Some(second), Some(text)) = (second, texts.beside) {
@@ -103,7 +103,7 @@ pub(super) fn run_fragility_export(
     }
     let sentence = format!("The fragilities are in {}.", args.out.display());
     let found = ExportSummary { model_error, blocks };
-    args.json.show_beside(&outputs, &sentence, &found)
+    args.json.show_beside(&outputs, &[&sentence], &found)
 }
 
 impl FragilityExportCommand {

@@ -9,23 +9,20 @@ use rocking_procedures::{
     capacities, fit_levels, fit_sample,
 };
 use rocking_records::intensity::IntensityMeasure;
-use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::lognormal::FitMethod;
-use rocking_statistics::{CensoredSample, Estimate, Lognormal, QuantileType};
+use rocking_statistics::{CensoredSample, Lognormal, QuantileType};
 use serde::Serialize;
 
 use super::source::{self, DispersionArg, IdaArgs};
-use crate::cli::capacities::{EdpLevels, demand};
+use crate::cli::capacities::{EdpLevels, intensities};
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, PlotArg, ThreadsArg};
-use crate::cli::show::{INTERVAL, estimate};
 use crate::failure::{AtPlace as _, Failure, bail};
 use crate::input;
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
 use rocking_common::table::{Table, number, optional};
 use rocking_draw::figures::of_suite::fragilities_svg;
-use rocking_exchange::sample::SampleFile;
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
 /// an IDA.
@@ -76,6 +73,7 @@ pub(super) struct FragilityFitCommand {
     #[arg(
         long,
         value_name = "LEVELS",
+        value_parser = intensities,
         requires = "bootstrap",
         allow_hyphen_values = true
     )]
@@ -153,7 +151,7 @@ pub(super) fn run_fragility_fit(
     let seed = args.seed;
     options.draws =
         args.bootstrap.map(|replicates| Draws { replicates, seed });
-    options.band = args.band.as_ref().map_or(Vec::new(), |b| b.0.clone());
+    options.band = args.band.clone().unwrap_or_default();
     match (&args.sample, &args.ida.ida) {
         (Some(path), _) => of_sample(args, path, &options),
         (None, Some(path)) => of_levels(args, path, &options),
@@ -170,7 +168,9 @@ fn of_sample(
     let table = outputs.open_some(args.band_csv.as_ref())?;
     let plot = args.plot.open(&mut outputs)?;
     let file = input::sample(path)?;
-    let unit = unit(&file, args.im.as_ref())?;
+    let stated = || file.unit().unwrap_or("that of the sample").to_owned();
+    let unit = file.im(args.im.as_ref())?;
+    let unit = unit.map_or_else(stated, |measure| measure.words());
     let sample = file.censored()?;
     let clusters = Some(file.clusters());
     let options = FitOptions { clusters, ..options.clone() };
@@ -184,10 +184,16 @@ fn of_sample(
         table.write(csv(band))?;
     }
     let sample_of = file.of().map(str::to_owned);
-    let of = sample_of.as_ref().map(|of| format!("values of {of}"));
-    let sentence = sentence(of.as_deref().unwrap_or("values"), &fit);
     let found = OfSample { sample_of, unit, fit };
-    args.json.show_beside(&outputs, &sentence, &found)
+    let sentences = [
+        "The fragility has a median of {bootstrap.median} and, above a shift \
+         of {fitted.shift}, a dispersion of {bootstrap.dispersion}. It is \
+         fitted to {n} values.",
+        "The fragility has a median of {fitted.median} and, above a shift of \
+         {fitted.shift}, a dispersion of {fitted.dispersion}. It is fitted to \
+         {n} values.",
+    ];
+    args.json.show_beside(&outputs, &sentences, &found)
 }
 
 fn of_levels(
@@ -224,31 +230,14 @@ fn of_levels(
         out.write(args.threads.run(|| svg(drawn, &options, &unit))??)?;
     }
     let point = rule.to_string();
-    let sentence = levels.last().map_or(String::new(), |last| {
-        let values = format!("capacities at {}", demand(last.edp));
-        sentence(&values, &last.fit)
-    });
     let found = OfLevels { unit, point, levels };
-    args.json.show_beside(&outputs, &sentence, &found)
-}
-
-/// Median and dispersion of a fit to these values.
-fn sentence(values: &str, fit: &FragilityFit) -> String {
-    let by = fit.bootstrap.as_ref();
-    let number = |x: f64, drawn: Option<&BootstrapEstimate>, called| {
-        let exact = Estimate::exact(x);
-        estimate(drawn.map_or(&exact, |drawn| &drawn.estimate), called)
-    };
-    let (law, drawn) = (&fit.fitted, by.and_then(|by| by.median.as_ref()));
-    let median = number(law.median(), drawn, INTERVAL);
-    let drawn = by.and_then(|by| by.dispersion.as_ref());
-    let beta = number(law.dispersion(), drawn, "");
-    format!(
-        "The fragility has a median of {median} and, above a shift of {}, a \
-         dispersion of {beta}. It is fitted to {} {values}.",
-        law.shift(),
-        fit.n
-    )
+    let sentences = [
+        "At |theta|/alpha = {levels.last.edp} the fragility has a median of \
+         {levels.last.fitted.median}.",
+        "At overturning the fragility has a median of \
+         {levels.last.fitted.median}.",
+    ];
+    args.json.show_beside(&outputs, &sentences, &found)
 }
 
 /// Fits to samples, by their names.
@@ -266,16 +255,6 @@ fn svg(
     }
     let words = (unit, "marks: capacities of the records");
     Ok(fragilities_svg(&fits, &points, words))
-}
-
-/// The unit of a sample's values in words.
-fn unit(
-    file: &SampleFile,
-    given: Option<&IntensityMeasure>,
-) -> Result<String, Failure> {
-    let measure = file.im(given)?.map(|measure| measure.words());
-    let stated = || file.unit().unwrap_or("that of the sample").to_owned();
-    Ok(measure.unwrap_or_else(stated))
 }
 
 /// Write the band as a table.

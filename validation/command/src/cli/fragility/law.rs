@@ -2,10 +2,8 @@
 
 use rocking_procedures::{ModelError, law_fragility};
 
-use crate::cli::capacities::demand;
 use crate::cli::scene::{BlockArgs, Eta};
 use crate::cli::shared::{JsonArg, ModelErrorArgs};
-use crate::cli::show::number;
 use crate::failure::Failure;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
@@ -39,11 +37,11 @@ pub(super) fn run_fragility_law(
     let eta = args.eta.restitution(&block)?.velocity_ratio();
     let error = args.model_error.or(ModelError::default());
     let found = law_fragility(&block, eta, args.at, error)?;
-    let sentence = format!(
-        "The median AvgSA at {} is {} g, the dispersion {}.",
-        demand(args.at),
-        number(found.total.median(), None),
-        number(found.total.dispersion(), None)
-    );
-    args.json.show(&sentence, &found)
+    let sentences = [
+        "At |theta|/alpha = {edp} AvgSA has a median of {total.median} g, and \
+         a dispersion of {total.dispersion}.",
+        "At overturning AvgSA has a median of {total.median} g, and a \
+         dispersion of {total.dispersion}.",
+    ];
+    args.json.show(&sentences, &found)
 }

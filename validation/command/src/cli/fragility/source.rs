@@ -112,7 +112,7 @@ pub struct IdaArgs {
 impl IdaArgs {
     /// The EDP levels, and the rule for several crossings.
     pub(super) fn levels(&self) -> (&[f64], InversionRule) {
-        let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
+        let at = self.at.as_deref().unwrap_or_default();
         (at, self.point.unwrap_or(InversionRule::Median))
     }
 }
@@ -183,10 +183,10 @@ impl SourceArgs {
     /// [`Failure`] for a file or a block that is refused.
     pub fn open(&self) -> Result<FragilitySource, Failure> {
         let gravity_m_s2 = self.gravity;
-        let rows = match (&self.blocks, self.block.given(), &self.id) {
-            (Some(path), ..) => blocks::on_ground(path, gravity_m_s2)?,
-            (None, None, None) => Vec::new(),
-            (None, ..) => {
+        let rows = match &self.blocks {
+            Some(path) => blocks::on_ground(path, gravity_m_s2)?,
+            None if self.id.is_none() && !self.block.is_given() => Vec::new(),
+            None => {
                 let block = self.block.block(gravity_m_s2)?;
                 let id = self.id.clone().map_or_else(|| Id::of(&block), Ok);
                 let id = id.map_err(Failure::input)?;
@@ -209,8 +209,17 @@ impl SourceArgs {
         }
         let samples = self.sample.iter().map(|path| self.sample(path));
         let counts = self.counts.iter().map(|path| self.counts(path));
-        let edps = self.law.iter().flat_map(|levels| &levels.0);
-        samples.chain(counts).chain(edps.map(|edp| Ok(law(*edp)))).collect()
+        let edps = self.law.iter().flatten();
+        let law = |&edp: &f64| {
+            Ok(FragilityLevel {
+                place: "--law".to_owned(),
+                im: Ok(IntensityMeasure::RockingSa(None)),
+                setting: SampleSetting::default(),
+                values: LevelValues::Law { edp },
+                origin: LawFragility::origin(edp),
+            })
+        };
+        samples.chain(counts).chain(edps.map(law)).collect()
     }
 
     fn sample(&self, path: &Path) -> Result<FragilityLevel, Failure> {
@@ -310,17 +319,6 @@ pub(super) fn in_table(
     })
 }
 
-/// The law at an EDP level.
-fn law(edp: f64) -> FragilityLevel {
-    FragilityLevel {
-        place: "--law".to_owned(),
-        im: Ok(IntensityMeasure::RockingSa(None)),
-        setting: SampleSetting::default(),
-        values: LevelValues::Law { edp },
-        origin: LawFragility::origin(edp),
-    }
-}
-
 impl FragilityLevel {
     fn im(&self) -> Result<&IntensityMeasure, Failure> {
         self.im.as_ref().map_err(Failure::input)
@@ -358,7 +356,7 @@ impl FragilityLevel {
             (LevelValues::Law { edp }, _, Some(row))
                 if once == FitOptions::default() =>
             {
-                let eta = row.eta.unwrap_or(RESTITUTION);
+                let eta = row.cells.eta.unwrap_or(RESTITUTION);
                 let none = ModelError::none();
                 let found = law_fragility(&row.block, eta, *edp, none);
                 Ok((found.at(place)?.fitted, None))
@@ -378,7 +376,7 @@ impl FragilityLevel {
         let setting = &self.setting;
         let intensity = self.im()?.dimensionless();
         setting.holds_for(&row.block, intensity).map_err(at)?;
-        if let (Some(own), Some(eta)) = (setting.eta, row.eta)
+        if let (Some(own), Some(eta)) = (setting.eta, row.cells.eta)
             && own != eta
         {
             return Err(at(format!(
@@ -466,49 +464,37 @@ impl FragilitySource {
                 );
             }
         }
-        type States = (Vec<LimitState>, Vec<Option<BootstrapFits>>);
-        let blocks: Vec<(Option<Id>, States)> = if is_own {
-            let laws = self.levels.iter();
-            let laws = laws.map(|level| level.fit(options, None));
-            let laws = laws.collect::<Result<Vec<SampledFragility>, _>>()?;
-            let (laws, sampled) = laws.into_iter().unzip();
-            vec![(None, (self.named(laws)?, sampled))]
+        let mut found = Vec::new();
+        if is_own {
+            let fits = self.levels.iter().map(|one| one.fit(options, None));
+            let fits = fits.collect::<Result<Vec<SampledFragility>, _>>()?;
+            let laws = fits.iter().map(|(law, _)| *law).collect();
+            let states = self.named(laws)?.into_iter();
+            found.extend(states.map(|state| state.name.to_string()).zip(fits));
         } else {
-            let all = self.all(options)?.into_iter();
-            all.map(|(one, sampled)| {
-                (Some(one.id), (one.limit_states, sampled))
-            })
-            .collect()
-        };
-        let count: usize = blocks.iter().map(|(_, (all, _))| all.len()).sum();
-        let named = |(id, (states, sampled)): (Option<Id>, States)| {
-            states.into_iter().zip(sampled).map(move |(state, sampled)| {
-                let id =
-                    id.as_ref().map_or(String::new(), |id| format!("{id}, "));
-                let name = (count > 1).then(|| format!("{id}{}", state.name));
-                (name, (state.fragility, sampled))
-            })
-        };
-        Ok(blocks.into_iter().flat_map(named).collect())
+            for (one, sampled) in self.all(options)? {
+                let states = one.limit_states.iter().zip(sampled);
+                found.extend(states.map(|(state, sampled)| {
+                    let name = format!("{}, {}", one.id, state.name);
+                    (name, (state.fragility, sampled))
+                }));
+            }
+        }
+        let several = found.len() > 1;
+        let found = found.into_iter();
+        Ok(found.map(|(name, own)| (several.then_some(name), own)).collect())
     }
 
-    /// The fragilities of all blocks, each in its own unit, with this error
+    /// The fragilities of all blocks, each in its own unit, without an error
     /// of the model.
     ///
     /// # Errors
     /// [`Failure`] for values that make no fit, and for a block to which they
     /// do not apply.
-    pub fn fragilities(
+    pub(super) fn all(
         &self,
         options: &FitOptions,
-        model_error: ModelError,
-    ) -> Result<Vec<BlockFragility>, Failure> {
-        let all = self.all(options)?.into_iter();
-        let of = |(own, _)| BlockFragility { model_error, ..own };
-        Ok(all.map(of).collect())
-    }
-
-    fn all(&self, options: &FitOptions) -> Result<Vec<BlockDraws>, Failure> {
+    ) -> Result<Vec<BlockDraws>, Failure> {
         ensure!(
             !self.rows.is_empty(),
             "expected --blocks, or --alpha and --p, or --width-m and \
@@ -556,7 +542,7 @@ impl FragilitySource {
         let fragility = BlockFragility {
             id: row.id.clone(),
             block: row.block,
-            eta: row.eta.or(first.setting.eta).or(usual),
+            eta: row.cells.eta.or(first.setting.eta).or(usual),
             im: first.im()?.of_block(row.block.frequency_rad_s()),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),

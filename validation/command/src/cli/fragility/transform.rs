@@ -1,10 +1,8 @@
 //! `rocking fragility transform`: Eqs. 5 to 7 of given numbers.
 
 use rocking_procedures::fit::Transformation;
-use rocking_procedures::fragility::FragilityError;
 
 use crate::cli::shared::JsonArg;
-use crate::cli::show::number;
 use crate::failure::Failure;
 
 /// Eqs. 5 to 7: a shifted fragility from unshifted numbers.
@@ -47,21 +45,11 @@ pub(super) fn run_fragility_transform(
         args.shift,
         args.c,
     );
-    let known = |number: &Option<Result<f64, FragilityError>>| {
-        number.as_ref().and_then(|number| number.as_ref().ok().copied())
-    };
-    let words = |found: Option<f64>| match found {
-        None => "that is not known".to_owned(),
-        Some(x) => format!("of {}", number(x, None)),
-    };
-    let median = known(&found.eq5).map(|mean| args.shift + libm::exp(mean));
-    let beta = known(&found.eq7).or(known(&found.eq6));
-    let sentence = format!(
-        "The fragility has a median {} and, above a shift of {}, a \
-         dispersion {}.",
-        words(median),
-        args.shift,
-        words(beta)
-    );
-    args.json.show(&sentence, &found)
+    let sentences = [
+        "Above a shift of {shift} the log mean is {eq5}, the dispersion \
+         {eq7}.",
+        "Above a shift of {shift} the dispersion is {eq6}.",
+        "Above a shift of {shift} not all numbers are known.",
+    ];
+    args.json.show(&sentences, &found)
 }

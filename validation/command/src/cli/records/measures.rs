@@ -153,12 +153,13 @@ impl MeasureArgs {
             not_measured: Vec::new(),
         };
         if self.intensity {
-            let single =
-                |l: &RecordListing| Measures::of(&l.motion, &settings);
+            let single = |l: &RecordListing| {
+                Measures::of(&l.member.accelerogram, &settings)
+            };
             let singles: Vec<_> = records.par_iter().map(single).collect();
             for (listed, single) in records.iter().zip(singles) {
-                let single = found.take(&listed.file, single);
-                found.add(&listed.file, OWN, single);
+                let single = found.take(&listed.member.file, single);
+                found.add(&listed.member.file, OWN, single);
             }
             let both = |(_, [a, b]): &NamedPair<'_>| {
                 PairMeasures::of(a, b, &settings, &self.rotd)
@@ -245,20 +246,22 @@ fn pairs(records: &[RecordListing]) -> Vec<NamedPair<'_>> {
     let mut by_name: BTreeMap<&str, Vec<&Accelerogram>> = BTreeMap::new();
     let mut names = Vec::new();
     for listed in records {
-        if let Some(pair) = &listed.pair {
+        if let Some(pair) = &listed.member.pair {
             let places = by_name.entry(pair).or_insert_with(|| {
                 names.push(pair.as_str());
                 Vec::new()
             });
-            let is_first = listed.study_component == Some(true);
+            let is_first = listed.in_suite && listed.member.study_component;
             let at = if is_first { 0 } else { places.len() };
-            places.insert(at, &listed.motion);
+            places.insert(at, &listed.member.accelerogram);
         }
     }
-    let suite = records.iter().any(|listed| listed.study_component.is_some());
+    let suite = records.iter().any(|listed| listed.in_suite);
     if let ([first, second], false) = (records, suite) {
+        let (first, second) = (&first.member, &second.member);
         let name = format!("{} + {}", first.file, second.file);
-        return vec![(name, [&first.motion, &second.motion])];
+        let motions = [&first.accelerogram, &second.accelerogram];
+        return vec![(name, motions)];
     }
     names
         .into_iter()
@@ -282,9 +285,10 @@ pub(super) fn svg(
     done: Option<&str>,
     gravity_m_s2: f64,
 ) -> Result<String, Failure> {
-    let [RecordListing { motion, .. }] = records else {
+    let [RecordListing { member, .. }] = records else {
         bail!("--plot: {} records: expected one", records.len());
     };
+    let motion = &member.accelerogram;
     let periods_s: Vec<f64> = (0..=DRAWN_PERIODS)
         .map(|k| 0.05 * libm::exp10(f64::from(k) / 40.0))
         .collect();

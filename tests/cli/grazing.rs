@@ -54,7 +54,5 @@ fn the_command_flags_a_grazing_first_hop_and_certifies_its_peak() {
     let (outcome, edp, summary) = row("--certify");
     assert_eq!(outcome, "rocked");
     assert!((edp - PEAK).abs() < 1e-14, "{edp}");
-    let by = "Resolved by double-double";
-    let by = summary.lines().find(|line| line.starts_with(by));
-    assert!(by.is_some_and(|line| line.ends_with(" 1")), "{summary}");
+    assert!(summary.contains("\nResolved by double-double"), "{summary}");
 }

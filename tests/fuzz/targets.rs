@@ -166,9 +166,7 @@ fn blocks(bytes: &[u8]) -> Result<(), String> {
     for row in rows {
         let alpha = row.block.slenderness_rad();
         assert!(alpha > 0.0 && alpha < std::f64::consts::FRAC_PI_2);
-        assert!(
-            row.cells.friction.is_none_or(|mu| mu > 0.0 && mu.is_finite())
-        );
+        assert!(row.cells.friction.is_none_or(|x| x > 0.0 && x.is_finite()));
     }
     Ok(())
 }

@@ -47,8 +47,7 @@ fn remarks_travel_to_every_result() {
     let out = answer(&folder, &ida);
     let words = "mean is 25.0 % of PGA: instrument offset? PGA is \
                 4.000e-1 g, and 3.000e-1 g without the mean (--demean)";
-    assert!(out.contains("\nRecords with remarks "), "{out}");
-    assert!(out.contains(words), "{out}");
+    assert!(out.contains("\nRecords with remarks ") && out.contains(words));
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
     let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
     assert!(of_b.contains(",end-velocity offset,,0.92,"), "{of_b}");

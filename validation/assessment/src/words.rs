@@ -26,15 +26,15 @@ pub(crate) fn three_digits(estimate: &Estimate) -> String {
     rounded_text(estimate, 3)
 }
 
-/// A return period in years with its interval, in two significant digits:
-/// `once in 740 years on average (95 % interval 330 to 1,700)`.
+/// A return period in years with the ends of its 95 % interval, in two
+/// significant digits: `once in 740 years on average (95 % interval 330 to
+/// 1,700)`.
 #[must_use]
-pub fn once_in(years: &Estimate) -> String {
-    let ends = years.interval().map(Interval::ends);
+pub fn once_in(years: f64, ends: Option<(f64, f64)>) -> String {
     let ends = ends.map_or(String::new(), |(low, high)| {
         format!(" (95 % interval {} to {})", thousands(low), thousands(high))
     });
-    format!("once in {} years on average{ends}", thousands(years.value()))
+    format!("once in {} years on average{ends}", thousands(years))
 }
 
 /// A number of two significant digits, with commas between its thousands.
@@ -84,7 +84,10 @@ pub(crate) fn first(found: &Assessment) -> String {
     let Some(one) = found.objects.first() else { return String::new() };
     let (id, what) = (&one.id, damage(one));
     let often = match one.answer.return_period_years() {
-        Some(often) => format!("{what} is expected {}", once_in(&often)),
+        Some(often) => {
+            let ends = often.interval().map(Interval::ends);
+            format!("{what} is expected {}", once_in(often.value(), ends))
+        }
         None => format!(
             "a {} of {} {} causes {what} with a probability of 5 %",
             measure(found),

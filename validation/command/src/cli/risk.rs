@@ -9,7 +9,7 @@ use rocking_procedures::fragility::hazard::{
 use rocking_procedures::{
     FitOptions, FragilityInput, ModelError, Shift, risk,
 };
-use rocking_statistics::{Estimate, Lognormal, QuantileType};
+use rocking_statistics::{Lognormal, QuantileType};
 
 use super::fragility::fit::FitArgs;
 use super::fragility::source::{FragilitySource, SourceArgs};
@@ -167,13 +167,12 @@ pub fn run_risk(args: &RiskCommand) -> Result<(), Failure> {
     }
     let sentence = found.fragilities.first().map_or(String::new(), |first| {
         let least = first.annual_frequency_truncation_lower;
-        let drawn = first.sampling.as_ref().map(|own| own.annual_frequency);
-        let often = drawn.unwrap_or(Estimate::exact(least));
-        format!(
-            "Damage is expected {}: {} a year.",
-            once_in(&often.map(f64::recip)),
-            number(least, None)
-        )
+        let ends = first
+            .sampling
+            .as_ref()
+            .and_then(|own| own.annual_frequency.map(f64::recip).interval());
+        let often = once_in(least.recip(), ends.map(|ends| ends.ends()));
+        format!("Damage is expected {often}: {} a year.", number(least, None))
     });
     args.json.show_beside(&outputs, &[&sentence], &found)
 }

@@ -29,7 +29,6 @@ pub(crate) fn three_digits(estimate: &Estimate) -> String {
 /// A return period in years with the ends of its 95 % interval, in two
 /// significant digits: `once in 740 years on average (95 % interval 330 to
 /// 1,700)`.
-#[must_use]
 pub fn once_in(years: f64, ends: Option<(f64, f64)>) -> String {
     let ends = ends.map_or(String::new(), |(low, high)| {
         format!(" (95 % interval {} to {})", thousands(low), thousands(high))
@@ -198,7 +197,6 @@ pub(crate) fn objects(found: &Assessment) -> WordTable {
 
 /// The text for the terminal: the first sentence, the table, and the effect of
 /// recorded motions.
-#[must_use]
 pub fn text(found: &Assessment) -> String {
     let table = numbered(&objects(found));
     let last = recorded(found).map(|own| format!("\n{own}\n"));

@@ -348,7 +348,6 @@ pub(super) fn onsets(found: &TestComparison) -> WordTable {
 }
 
 /// The text for the terminal.
-#[must_use]
 pub fn text(found: &TestComparison) -> String {
     let mut lines = vec![
         first(found),

@@ -130,7 +130,6 @@ impl CountTable {
     }
 
     /// The counts; `None` if a record was not run at every intensity.
-    #[must_use]
     pub fn stripes(&self) -> Option<Cow<'_, [Stripe]>> {
         Some(match self {
             Self::Stripes(stripes) => Cow::Borrowed(stripes),

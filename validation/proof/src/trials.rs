@@ -16,7 +16,7 @@ mod search;
 mod summary;
 
 pub use compare::{
-    CertificateReading, DoubleRun, Finding, Trial, WideTruth, compare, truth,
+    CertificateReading, DoubleRun, Finding, Trial, WideTruth, compare,
 };
 pub use summary::{Judgement, SHARES, TrialSummary};
 
@@ -24,7 +24,7 @@ use rayon::prelude::*;
 use rocking_statistics::streams::Streams;
 
 use crate::scene::EngineError;
-pub(crate) use compare::WORK;
+pub(crate) use compare::{WORK, truth};
 pub(crate) use draw::Draw;
 use rocking::names::named;
 pub(crate) use search::moved;

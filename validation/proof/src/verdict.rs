@@ -1,4 +1,4 @@
-//! The one function that says whether a case holds, and its result.
+//! Judges a case: its quantities against their bounds, and its wrong models.
 
 pub mod snapshot;
 
@@ -6,9 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::cases::{Bound, Case, EvidenceKind, Status, ToleranceBasis};
+use crate::cases::{Bound, Case, ToleranceBasis};
 use crate::methods::{self, Quantities, Reply};
 use rocking::names::named;
+use rocking_common::json::Extended;
+use snapshot::RejectionResult;
 
 named! {
     /// Result of a case.
@@ -19,17 +21,6 @@ named! {
         Fail = "fail",
         /// The case could not be judged.
         Error = "error",
-        /// Fails, as declared.
-        KnownFailure = "known-failure",
-        /// Passes although declared to fail.
-        UnexpectedPass = "unexpected-pass",
-    }
-}
-
-impl CaseVerdict {
-    /// Whether the gate stays green.
-    pub fn is_accepted(self) -> bool {
-        matches!(self, Self::Pass | Self::KnownFailure)
     }
 }
 
@@ -58,30 +49,15 @@ impl Check {
     }
 }
 
-/// How a wrong model fared.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rejection {
-    /// Its name.
-    pub model: &'static str,
-    /// Largest error over bound: above 1 is rejected.
-    pub margin: f64,
-    /// The quantity that shows it best.
-    pub quantity: String,
-}
-
 /// A judged case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseOutcome {
-    /// The case's id.
-    pub id: String,
-    /// Its kind.
-    pub kind: EvidenceKind,
-    /// Where its bounds come from.
-    pub basis: ToleranceBasis,
+    /// The case.
+    pub case: Case,
     /// Each quantity.
     pub checks: Vec<Check>,
-    /// Each wrong model.
-    pub rejections: Vec<Rejection>,
+    /// Each wrong model by its name: a margin above 1 is rejected.
+    pub rejections: BTreeMap<String, RejectionResult>,
     /// The verdict.
     pub verdict: CaseVerdict,
     /// What went wrong, if anything did.
@@ -94,12 +70,13 @@ impl CaseOutcome {
         self.checks.iter().fold(0.0, |worst, c| largest(worst, c.margin))
     }
 
-    /// Bounds that are far from what is reached or nearly broken. Bounds at
-    /// the floor and those taken from another code's errors cannot be
-    /// tightened; printed digits use up their bound.
+    /// Bounds that are far above the error or nearly broken. Bounds at the
+    /// floor and bounds taken from another code's errors cannot be tightened;
+    /// printed digits use up their bound.
     pub fn bounds_to_look_at(&self) -> Vec<&Check> {
-        let printed = self.basis == ToleranceBasis::ReferenceRounding;
-        let given = self.basis == ToleranceBasis::AttainableFloat64;
+        let basis = self.case.tolerance.basis;
+        let printed = basis == ToleranceBasis::ReferenceRounding;
+        let given = basis == ToleranceBasis::AttainableFloat64;
         let odd = |c: &&Check| {
             let (Bound::Absolute(bound) | Bound::Relative(bound)) = c.bound
             else {
@@ -112,7 +89,7 @@ impl CaseOutcome {
     }
 }
 
-/// No bound in double precision is asked to be tighter.
+/// Lower limit of a useful bound in double precision.
 const FLOOR: f64 = 1.01e-13;
 
 fn largest(a: f64, b: f64) -> f64 {
@@ -120,7 +97,7 @@ fn largest(a: f64, b: f64) -> f64 {
 }
 
 /// Compares quantities by name, never by position; `floor` widens absolute
-/// and relative bounds to what a naive method can do.
+/// and relative bounds to the accuracy of a naive method.
 ///
 /// # Errors
 /// An error for a quantity without bound or expectation, and for a
@@ -142,14 +119,11 @@ pub fn judge(
             .get(name)
             .with_context(|| format!("quantity `{name}` has no bound"))?;
         let seen = observed.get(name).cloned().unwrap_or_default();
-        let needed = !matches!(bound, Bound::Interval(..));
-        let wanted = match expected.get(name) {
-            Some(values) => values.clone(),
-            None if needed => {
-                bail!("quantity `{name}` has no expected value");
-            }
-            None => Vec::new(),
-        };
+        let wanted = expected.get(name);
+        if wanted.is_none() && !matches!(bound, Bound::Interval(..)) {
+            bail!("quantity `{name}` has no expected value");
+        }
+        let wanted = wanted.cloned().unwrap_or_default();
         let (error, margin) = measure(bound, &seen, &wanted, floor);
         checks.push(Check {
             quantity: name.clone(),
@@ -170,16 +144,13 @@ fn measure(
     floor: Option<f64>,
 ) -> (f64, f64) {
     let never = (f64::INFINITY, f64::INFINITY);
-    let pairs = || seen.iter().zip(wanted);
     let widened = |x: f64| floor.map_or(x, |f| if f > x { f } else { x });
     let over = |error: f64, limit: f64| {
-        let margin = if error == 0.0 { 0.0 } else { error / limit };
-        (error, margin)
+        (error, if error == 0.0 { 0.0 } else { error / limit })
     };
     let worst = |of: fn(f64, f64) -> f64| {
-        pairs().fold(0.0, |worst, (s, w)| {
-            let same = s == w;
-            largest(worst, if same { 0.0 } else { of(*s, *w) })
+        seen.iter().zip(wanted).fold(0.0, |worst, (s, w)| {
+            largest(worst, if s == w { 0.0 } else { of(*s, *w) })
         })
     };
     match bound {
@@ -203,47 +174,31 @@ fn measure(
         Bound::Order(slack) => {
             over(worst(|s, w| if s > w { 0.0 } else { w - s }), *slack)
         }
-        Bound::Coverage(trials) => {
-            // One false alarm in a million, two-sided: 4.8917 sigma.
-            let n = f64::from(*trials);
-            pairs().fold((0.0, 0.0), |(e, m), (s, w)| {
-                let error = (s - w).abs();
-                let limit = 4.8917 * (w * (1.0 - w) / n).sqrt() + 0.5 / n;
-                (largest(e, error), largest(m, error / limit))
-            })
-        }
     }
 }
 
 /// Runs a case and its wrong models, and gives the verdict.
 pub fn run_case(case: &Case) -> CaseOutcome {
     let mut outcome = CaseOutcome {
-        id: case.id.clone(),
-        kind: case.kind,
-        basis: case.tolerance.basis,
+        case: case.clone(),
         checks: Vec::new(),
-        rejections: Vec::new(),
-        verdict: CaseVerdict::Error,
+        rejections: BTreeMap::new(),
+        verdict: CaseVerdict::Fail,
         messages: Vec::new(),
     };
     if let Err(error) = fill(&mut outcome, case) {
+        outcome.verdict = CaseVerdict::Error;
         outcome.messages.push(format!("{error:#}"));
-        return outcome;
+    } else if outcome.messages.is_empty() {
+        outcome.verdict = CaseVerdict::Pass;
     }
-    let holds = outcome.messages.is_empty();
-    outcome.verdict = match (&case.status, holds) {
-        (Status::Pass, true) => CaseVerdict::Pass,
-        (Status::Pass, false) => CaseVerdict::Fail,
-        (Status::KnownFailure { .. }, false) => CaseVerdict::KnownFailure,
-        (Status::KnownFailure { .. }, true) => CaseVerdict::UnexpectedPass,
-    };
     outcome
 }
 
-/// Runs the case alone, without its wrong models.
+/// Runs the case without its wrong models.
 ///
 /// # Errors
-/// An error where no answer can be given or judged.
+/// An error if no answer can be given or judged.
 pub fn checks_of(case: &Case) -> Result<Vec<Check>> {
     checks(case, methods::run_method(case, None), None)
 }
@@ -266,11 +221,17 @@ fn fill(outcome: &mut CaseOutcome, case: &Case) -> Result<()> {
         let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
         let answer = methods::run_method(case, Some(wrong));
         let checks = checks(case, answer, floor).context(name)?;
-        let rejection = strongest(name, &checks);
-        if rejection.margin <= 1.0 {
+        // The first of the largest margins.
+        let by_margin = |a: &&Check, b: &&Check| a.margin.total_cmp(&b.margin);
+        let strongest = checks.iter().rev().max_by(by_margin);
+        let strongest = strongest.context("no quantity")?;
+        if strongest.margin <= 1.0 {
             messages.push(format!("wrong model `{name}` passes"));
         }
-        outcome.rejections.push(rejection);
+        let quantity = strongest.quantity.clone();
+        let margin = Extended(strongest.margin);
+        let rejection = RejectionResult { margin, quantity };
+        outcome.rejections.insert(name.to_owned(), rejection);
     }
     Ok(())
 }
@@ -305,44 +266,29 @@ fn checks(
     let Reply { observed, mut expected } = answer?;
     for (name, values) in &case.expect.values {
         if expected.insert(name.clone(), values.to_vec()).is_some() {
-            bail!(
-                "quantity `{name}` is expected by the method and by the case"
-            );
+            bail!("both the method and the case give `{name}` a value");
         }
     }
     judge(&case.tolerance.bounds, &observed, &expected, floor)
 }
 
-fn strongest(model: &'static str, checks: &[Check]) -> Rejection {
-    let mut rejection =
-        Rejection { model, margin: 0.0, quantity: String::new() };
-    for check in checks {
-        if check.margin > rejection.margin {
-            rejection.margin = check.margin;
-            rejection.quantity.clone_from(&check.quantity);
-        }
-    }
-    rejection
-}
-
 /// A broken bound with its values, as decimals and as bits.
 fn describe(check: &Check) -> String {
     use std::fmt::Write as _;
+    let Check { quantity, bound, error, margin, observed, expected } = check;
     let mut text = format!(
-        "{}: error {:e} against {:?} (margin {:.3})",
-        check.quantity, check.error, check.bound, check.margin
+        "{quantity}: error {error:e} against {bound:?} (margin {margin:.3})"
     );
-    if check.observed.len() != check.expected.len() {
-        let (o, e) = (check.observed.len(), check.expected.len());
-        let _ = write!(text, "; {o} values for {e} expected");
+    let (n, due) = (observed.len(), expected.len());
+    if n != due {
+        let _ = write!(text, "; {n} values for {due} expected");
     }
-    let pairs = check.observed.iter().zip(&check.expected);
-    for (i, (o, e)) in pairs.enumerate().filter(|(_, (o, e))| o != e).take(4) {
+    let pairs = observed.iter().zip(expected).enumerate();
+    for (i, (o, e)) in pairs.filter(|(_, (o, e))| o != e).take(4) {
+        let (seen, due) = (o.to_bits(), e.to_bits());
         let _ = write!(
             text,
-            "\n  [{i}] observed {o:e} ({:016x}), expected {e:e} ({:016x})",
-            o.to_bits(),
-            e.to_bits()
+            "\n  [{i}] observed {o:e} ({seen:016x}), expected {e:e} ({due:016x})"
         );
     }
     text

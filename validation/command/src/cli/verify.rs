@@ -62,7 +62,8 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     let found = VerifySummary::of(&outcomes);
     let sentence = "{passed} of {of} cases pass.";
     args.json.summarise(&Outputs::default(), &[sentence], &found)?;
-    let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
+    let passed = |o: &&CaseOutcome| o.verdict == CaseVerdict::Pass;
+    let refused = outcomes.len() - outcomes.iter().filter(passed).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
             "{refused} of {} cases are not accepted",
@@ -72,7 +73,7 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     let Some(out) = &args.out else { return Ok(()) };
     let folder = out.join("data");
     let path = folder.join("verification.json");
-    let text = snapshot::text(&cases, &outcomes);
+    let text = snapshot::text(&outcomes);
     let digits_path = folder.join("precision.csv");
     let digits = digits_csv(&digits()?);
     if let Some([results, precision]) = outputs {
@@ -164,9 +165,9 @@ impl<'a> VerifySummary<'a> {
         let mut found = Self { of: outcomes.len(), ..Self::default() };
         let mut kinds: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for outcome in outcomes {
-            let (case, verdict) = (&*outcome.id, outcome.verdict.name());
-            let rejected = outcome.rejections.iter();
-            let rejected = rejected.filter(|r| r.margin > 1.0);
+            let (case, verdict) = (&*outcome.case.id, outcome.verdict.name());
+            let rejected = outcome.rejections.values();
+            let rejected = rejected.filter(|r| r.margin.0 > 1.0);
             found.cases.push(CaseMargin {
                 case,
                 verdict,
@@ -182,7 +183,7 @@ impl<'a> VerifySummary<'a> {
                 quantity: &check.quantity,
                 margin: check.margin,
             }));
-            *kinds.entry((outcome.kind.name(), verdict)).or_default() += 1;
+            *kinds.entry((outcome.case.kind.name(), verdict)).or_default() += 1;
             found.passed += usize::from(outcome.verdict == CaseVerdict::Pass);
         }
         let kinds = kinds.into_iter();

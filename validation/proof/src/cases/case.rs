@@ -1,4 +1,4 @@
-//! A declared case.
+//! A reference case.
 
 use std::collections::BTreeMap;
 
@@ -135,10 +135,7 @@ pub enum Bound {
     Interval(f64, f64),
     /// Observed order of convergence at least the expected one less this.
     Order(f64),
-    /// Observed share within the binomial bound of the expected one, for
-    /// this many trials and a false alarm of one in a million.
-    Coverage(u32),
-    /// Not demanded of this case, for this reason.
+    /// Not required of this case, for this reason.
     Waived(String),
 }
 
@@ -151,7 +148,6 @@ impl Bound {
             Self::Relative(_) => "relative",
             Self::Interval(..) => "interval",
             Self::Order(_) => "order",
-            Self::Coverage(_) => "coverage",
             Self::Waived(_) => "waived",
         }
     }
@@ -197,20 +193,7 @@ pub struct Tolerance {
     pub naive: Option<f64>,
 }
 
-/// What is expected of the verdict.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, tag = "expect", rename_all = "kebab-case")]
-pub enum Status {
-    /// The case passes.
-    Pass,
-    /// The case is known to fail.
-    KnownFailure {
-        /// Where the failure is discussed.
-        issue: String,
-    },
-}
-
-/// One declared case.
+/// One reference case.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
@@ -236,6 +219,4 @@ pub struct Case {
     pub expect: Expect,
     /// Tolerances.
     pub tolerance: Tolerance,
-    /// What is expected of the verdict.
-    pub status: Status,
 }

@@ -1,17 +1,17 @@
-//! What a case inherits: the defaults of its method and of its family, and
-//! those of every case.
+//! Values that a case inherits: the defaults of its method, of its family and
+//! of every case.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use anyhow::{Context as _, Result, bail, ensure};
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::attainable::{entry_of, resolve};
+use super::attainable::resolve;
 use super::case::Family;
-use super::error::CaseFault;
 
-/// Tables that are merged key by key. Every other value, a bound or a list
-/// too, replaces the inherited one as a whole.
+/// Tables that are merged key by key. Every other value, including a bound or
+/// a list, replaces the inherited one as a whole.
 const MERGED: &[&[&str]] = &[
     &["source"],
     &["expect"],
@@ -27,17 +27,21 @@ type Path = Vec<String>;
 /// Values by path, down to where they are merged.
 type Flat = BTreeMap<Path, Value>;
 
-/// Defaults, the later ones over the earlier ones.
+/// Values with the number of the layer that gave each.
+type ValueLayers = BTreeMap<Path, (usize, Value)>;
+
+/// Layers of defaults; a later one overrides an earlier one.
 pub(super) struct Defaults {
-    method: Option<String>,
+    /// The default method of the family; empty if there is none.
+    method: String,
     layers: Vec<Layer>,
 }
 
 struct Layer {
-    /// As it stands in the file.
+    /// Name of its table in the file.
     name: String,
     values: Flat,
-    /// What at least one case has inherited.
+    /// Paths that at least one case has inherited.
     used: BTreeSet<Path>,
 }
 
@@ -54,15 +58,16 @@ fn of_method(method: &str) -> String {
     format!("[family.method.{method}]")
 }
 
+/// The text of a key; empty if there is none.
+pub(super) fn text<'a>(table: &'a Table, key: &str) -> &'a str {
+    table.get(key).and_then(Value::as_str).unwrap_or_default()
+}
+
 impl Defaults {
     /// The defaults of a family.
     pub fn new(family: Family) -> Self {
-        let all = toml::toml! {
-            cost = "quick"
-            status.expect = "pass"
-        };
-        let method = family.default.get("method").and_then(Value::as_str);
-        let method = method.map(str::to_owned);
+        let method = text(&family.default, "method").to_owned();
+        let all = toml::toml! { cost = "quick" };
         let mut layers = vec![
             Layer::new(String::new(), all),
             Layer::new("[family.default]".to_owned(), family.default),
@@ -73,27 +78,31 @@ impl Defaults {
         Self { method, layers }
     }
 
-    /// The case with what it inherits.
+    /// The case with the values that it inherits.
     ///
     /// # Errors
-    /// [`CaseFault`] for a value that equals the inherited one, for a
-    /// quantity in `without` that is not inherited, and for bounds that
-    /// cannot be computed.
-    pub fn complete(&mut self, case: Table) -> Result<Table, CaseFault> {
-        let named = case.get("name").and_then(Value::as_str);
-        let name = format!("case `{}`", named.unwrap_or_default());
-        let stated = case.get("method").and_then(Value::as_str);
-        let method = stated.or(self.method.as_deref()).map(of_method);
-        let entry = entry_of(&case);
+    /// A message for a value that equals the inherited one, for a quantity in
+    /// `without` that is not inherited, and for bounds that cannot be
+    /// computed.
+    pub fn complete(&mut self, case: Table) -> Result<Table> {
+        let name = text(&case, "name").to_owned();
+        let method = match text(&case, "method") {
+            "" => of_method(&self.method),
+            own => of_method(own),
+        };
+        let entry = case.get("input").and_then(|input| input.get("entry"));
+        let entry = entry.and_then(Value::as_str).map(str::to_owned);
+        let entry = entry.ok_or_else(|| {
+            format!("the input of `{name}` names no `entry` of a reference")
+        });
         let mut found = ValueLayers::default();
         for (index, layer) in self.layers.iter().enumerate() {
-            if index < 2 || Some(&layer.name) == method.as_ref() {
-                let values = layer.values.clone();
-                self.lay(&mut found, index, values, &layer.name, &entry)?;
+            if index < 2 || layer.name == method {
+                lay(&mut found, index, layer, &entry)?;
             }
         }
-        let (own, case) = (self.layers.len(), Layer::new(name, case));
-        self.lay(&mut found, own, case.values, &case.name, &entry)?;
+        let own = Layer::new(format!("case `{name}`"), case);
+        lay(&mut found, self.layers.len(), &own, &entry)?;
         let mut table = Table::new();
         for (path, (index, value)) in found {
             insert(&mut table, &path, value);
@@ -104,66 +113,61 @@ impl Defaults {
         Ok(table)
     }
 
-    /// Lays the values of a layer over those found below it.
-    fn lay(
-        &self,
-        found: &mut ValueLayers,
-        index: usize,
-        mut values: Flat,
-        place: &str,
-        entry: &Result<String, String>,
-    ) -> Result<(), CaseFault> {
-        for name in without(&mut values) {
-            let path = path(&["tolerance", "bounds", &name]);
-            if found.remove(&path).is_none() {
-                let place = place.to_owned();
-                return Err(CaseFault::Absent { place, name });
-            }
-        }
-        // Another document, and another basis, bring their own words.
-        let other = |found: &ValueLayers, keys: &[&str]| {
-            let path = path(keys);
-            let below = found.get(&path).map(|(_, value)| value);
-            values.get(&path).is_some_and(|value| below != Some(value))
-        };
-        if other(found, &["source", "cite"]) {
-            found.retain(|path, _| path[0] != "source");
-        }
-        if other(found, &["tolerance", "basis"]) {
-            found.remove(&path(&["tolerance", "because"]));
-        }
-        for (path, value) in &mut values {
-            resolve(entry, path, value).map_err(|message| {
-                let key = path.join(".");
-                CaseFault::Form(format!("{place}: {key}: {message}"))
-            })?;
-            if found.get(path).is_some_and(|(_, below)| below == value) {
-                let (place, key) = (place.to_owned(), path.join("."));
-                return Err(CaseFault::Repeated { place, key });
-            }
-        }
-        found.extend(values.into_iter().map(|(p, v)| (p, (index, v))));
-        Ok(())
-    }
-
     /// Refuses a default that no case has inherited.
     ///
     /// # Errors
-    /// [`CaseFault::Idle`] with the first one.
-    pub fn all_used(&self) -> Result<(), CaseFault> {
+    /// A message that names the first of these defaults.
+    pub fn all_used(&self) -> Result<()> {
         for layer in &self.layers[1..] {
             let idle = |path: &&Path| !layer.used.contains(*path);
             if let Some(path) = layer.values.keys().find(idle) {
-                let (place, key) = (layer.name.clone(), path.join("."));
-                return Err(CaseFault::Idle { place, key });
+                let (place, key) = (&layer.name, path.join("."));
+                bail!("{place}: no case inherits `{key}`");
             }
         }
         Ok(())
     }
 }
 
-/// Values with the number of the layer that gave each.
-type ValueLayers = BTreeMap<Path, (usize, Value)>;
+/// Lays the values of a layer over those of the layers below it.
+fn lay(
+    found: &mut ValueLayers,
+    index: usize,
+    layer: &Layer,
+    entry: &Result<String, String>,
+) -> Result<()> {
+    let (place, mut values) = (&layer.name, layer.values.clone());
+    for name in without(&mut values) {
+        ensure!(
+            found.remove(&path(&["tolerance", "bounds", &name])).is_some(),
+            "{place}: `tolerance.without` names `{name}`, whose bound is not \
+             inherited"
+        );
+    }
+    // Another document or another basis needs other words.
+    let other = |found: &ValueLayers, keys: &[&str]| {
+        let path = path(keys);
+        let below = found.get(&path).map(|(_, value)| value);
+        values.get(&path).is_some_and(|value| below != Some(value))
+    };
+    if other(found, &["source", "cite"]) {
+        found.retain(|path, _| path[0] != "source");
+    }
+    if other(found, &["tolerance", "basis"]) {
+        found.remove(&path(&["tolerance", "because"]));
+    }
+    for (path, value) in &mut values {
+        let key = path.join(".");
+        resolve(entry, path, value)
+            .with_context(|| format!("{place}: {key}"))?;
+        ensure!(
+            found.get(path).is_none_or(|(_, below)| below != value),
+            "{place}: `{key}` repeats the inherited value: leave it out"
+        );
+    }
+    found.extend(values.into_iter().map(|(p, v)| (p, (index, v))));
+    Ok(())
+}
 
 fn path(keys: &[&str]) -> Path {
     keys.iter().map(|key| (*key).to_owned()).collect()
@@ -185,23 +189,20 @@ fn flatten(table: Table, path: &mut Path, values: &mut Flat) {
 }
 
 fn insert(table: &mut Table, path: &[String], value: Value) {
-    match path {
-        [key] => {
-            table.insert(key.clone(), value);
-        }
-        [key, rest @ ..] => {
-            let inner = table.entry(key.clone());
-            let inner = inner.or_insert_with(|| Table::new().into());
-            if let Value::Table(inner) = inner {
-                insert(inner, rest, value);
-            }
-        }
-        [] => {}
+    let Some((key, rest)) = path.split_first() else { return };
+    if rest.is_empty() {
+        table.insert(key.clone(), value);
+        return;
+    }
+    let inner = table.entry(key.clone());
+    let inner = inner.or_insert_with(|| Table::new().into());
+    if let Value::Table(inner) = inner {
+        insert(inner, rest, value);
     }
 }
 
-/// Takes the list of quantities whose inherited bound is not wanted; what is
-/// no list of names stays, to be refused as an unknown key.
+/// Takes out the list of quantities whose inherited bound is dropped. A value
+/// that is no list of names stays, to be refused as an unknown key.
 fn without(values: &mut Flat) -> Vec<String> {
     let key = path(&["tolerance", "without"]);
     let names = values.get(&key).and_then(|v| v.clone().try_into().ok());
@@ -211,7 +212,7 @@ fn without(values: &mut Flat) -> Vec<String> {
     names.unwrap_or_default()
 }
 
-/// An entry of a reference: by name, or with a claim of its own.
+/// An entry of a reference: a name, or a name and a claim.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected names or pairs of name and claim")]
 enum EntryName {
@@ -219,44 +220,36 @@ enum EntryName {
     Claimed([String; 2]),
 }
 
-/// One case for each of the `entries` of a declaration, named after it in
-/// lower case; the declaration itself where it has none.
+/// One case for each of the `entries` of a declaration, with the entry in
+/// lower case as its name; the declaration itself if it has no `entries`.
 ///
 /// # Errors
-/// What is wrong, in words.
-pub(super) fn expand(mut declared: Table) -> Result<Vec<Table>, String> {
+/// A message for entries that are malformed or contradict the declaration.
+pub(super) fn expand(mut declared: Table) -> Result<Vec<Table>> {
     let Some(entries) = declared.remove("entries") else {
         return Ok(vec![declared]);
     };
-    let entries: Vec<EntryName> = entries
-        .try_into()
-        .map_err(|error| format!("`entries`: {}", error.message()))?;
-    if entries.is_empty() {
-        return Err("`entries`: none".to_owned());
-    }
-    let mut cases = Vec::with_capacity(entries.len());
-    for named in entries {
+    let entries: Vec<EntryName> = entries.try_into().context("`entries`")?;
+    ensure!(!entries.is_empty(), "`entries`: none");
+    let case = |named| {
         let mut case = declared.clone();
         let (entry, claim) = match named {
             EntryName::Name(entry) => (entry, None),
             EntryName::Claimed([entry, claim]) => (entry, Some(claim)),
         };
-        let twice = |key: &str| format!("entry `{entry}`: `{key}` twice");
-        if case.insert("name".into(), entry.to_lowercase().into()).is_some() {
-            return Err(twice("name"));
-        }
-        if let Some(claim) = claim
-            && case.insert("claim".into(), claim.into()).is_some()
-        {
-            return Err(twice("claim"));
-        }
         let input = case.entry("input").or_insert_with(|| Table::new().into());
         let input = input.as_table_mut();
-        let input = input.ok_or_else(|| format!("entry `{entry}`: input"))?;
-        if input.insert("entry".into(), entry.clone().into()).is_some() {
-            return Err(twice("input.entry"));
+        let input =
+            input.with_context(|| format!("entry `{entry}`: input"))?;
+        let twice = input.insert("entry".into(), entry.clone().into());
+        ensure!(twice.is_none(), "entry `{entry}`: `input.entry` twice");
+        let name = ("name", Some(entry.to_lowercase()));
+        for (key, value) in [name, ("claim", claim)] {
+            let Some(value) = value else { continue };
+            let twice = case.insert(key.into(), value.into());
+            ensure!(twice.is_none(), "entry `{entry}`: `{key}` twice");
         }
-        cases.push(case);
-    }
-    Ok(cases)
+        Ok(case)
+    };
+    entries.into_iter().map(case).collect()
 }

@@ -1,18 +1,22 @@
-//! Reads case files; refuses what it does not know.
+//! Reads case files and refuses unknown keys.
 
 use std::collections::BTreeSet;
 
+use anyhow::{Context as _, Result, anyhow, ensure};
 use serde::Deserialize;
-use toml::{Table, Value};
+use toml::Table;
 
 use super::case::{Bound, Case, Family};
-use super::defaults::{Defaults, expand};
-use super::error::{CaseError, CaseFault, LARGEST};
+use super::defaults::{Defaults, expand, text};
 use super::pinned;
 
 /// Each family with the text of its file, in the order of their names.
 pub const FAMILIES: &[(&str, &str)] =
     include!(concat!(env!("OUT_DIR"), "/families.rs"));
+
+/// Largest size of a case file in bytes: parsing takes a hundred times the
+/// memory of the text.
+const LARGEST: usize = 256 << 10;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -26,8 +30,8 @@ struct CaseFile {
 /// work counters as expected values.
 ///
 /// # Errors
-/// [`CaseError`] of the first file refused.
-pub fn load_all() -> Result<Vec<Case>, CaseError> {
+/// A message about the first file refused.
+pub fn load_all() -> Result<Vec<Case>> {
     let mut cases = Vec::new();
     for (family, text) in FAMILIES {
         cases.extend(load_family(family, text)?);
@@ -39,10 +43,9 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
 /// The cases of one file.
 ///
 /// # Errors
-/// [`CaseError`] for unknown keys, missing fields, duplicate or malformed
-/// names, bounds that are negative or not numbers, files without cases,
-/// values that repeat what they would inherit, and defaults that no case
-/// inherits.
+/// A message for unknown keys, missing fields, duplicate or malformed names,
+/// bounds that are negative or not numbers, files without cases, values that
+/// repeat the inherited one, and defaults that no case inherits.
 ///
 /// ```
 /// use rocking_proof::cases::load_family;
@@ -50,37 +53,30 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
 /// let error = load_family("f", text).unwrap_err();
 /// assert!(error.to_string().contains("unknown field `x`"));
 /// ```
-pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>, CaseError> {
-    let refused = |fault| CaseError { family: family.to_owned(), fault };
-    load(family, text).map_err(refused)
+pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>> {
+    load(family, text).map_err(|e| anyhow!("cases/{family}.toml: {e:#}"))
 }
 
-fn load(family: &str, text: &str) -> Result<Vec<Case>, CaseFault> {
-    if text.len() > LARGEST {
-        return Err(CaseFault::Long(text.len()));
-    }
-    let file: CaseFile = toml::from_str(text)
-        .map_err(|error| CaseFault::Form(error.to_string()))?;
-    if file.case.is_empty() {
-        return Err(CaseFault::Empty);
-    }
+fn load(family: &str, file: &str) -> Result<Vec<Case>> {
+    let size = file.len();
+    ensure!(size <= LARGEST, "{size} bytes: expected at most {LARGEST}");
+    let file: CaseFile = toml::from_str(file)?;
+    ensure!(!file.case.is_empty(), "no case");
     let kind = file.family.kind.name();
     let mut defaults = Defaults::new(file.family);
     let mut names = BTreeSet::new();
     let mut cases = Vec::with_capacity(file.case.len());
     for declared in file.case {
-        for case in expand(declared).map_err(CaseFault::Form)? {
+        for case in expand(declared)? {
             let mut case = defaults.complete(case)?;
             for (key, value) in [("family", family), ("kind", kind)] {
-                if case.insert(key.into(), value.into()).is_some() {
-                    let message = format!("unknown field `{key}`");
-                    return Err(CaseFault::Form(message));
-                }
+                let unknown = case.insert(key.into(), value.into());
+                ensure!(unknown.is_none(), "unknown field `{key}`");
             }
-            let mut case = typed_case(case).map_err(CaseFault::Form)?;
-            if !names.insert(case.id.clone()) {
-                return Err(CaseFault::Duplicate(case.id));
-            }
+            let place = format!("case `{}`", text(&case, "name"));
+            let mut case: Case = case.try_into().context(place)?;
+            let first = names.insert(case.id.clone());
+            ensure!(first, "two cases are named `{}`", case.id);
             check(&case)?;
             case.id = format!("{family}/{}", case.id);
             cases.push(case);
@@ -90,32 +86,21 @@ fn load(family: &str, text: &str) -> Result<Vec<Case>, CaseFault> {
     Ok(cases)
 }
 
-/// A case that has all it inherits; its id is still its name.
-fn typed_case(case: Table) -> Result<Case, String> {
-    let name = case.get("name").and_then(Value::as_str);
-    let place = format!("case `{}`", name.unwrap_or_default());
-    Value::Table(case)
-        .try_into()
-        .map_err(|error: toml::de::Error| format!("{place}: {error}"))
-}
-
-fn check(case: &Case) -> Result<(), CaseFault> {
-    let name = || case.id.clone();
+fn check(case: &Case) -> Result<()> {
+    let name = &case.id;
     let known = |c: char| {
         c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c)
     };
-    if case.id.is_empty() || !case.id.chars().all(known) {
-        return Err(CaseFault::Name(name()));
-    }
-    let texts = [
+    let sound = !name.is_empty() && name.chars().all(known);
+    ensure!(sound, "case name `{name}`");
+    for (field, text) in [
         ("claim", &case.claim),
         ("source.cite", &case.source.cite),
         ("expect.origin", &case.expect.origin),
         ("tolerance.because", &case.tolerance.because),
-    ];
-    let is_empty = |(_, text): &(_, &String)| text.trim().is_empty();
-    if let Some((field, _)) = texts.into_iter().find(is_empty) {
-        return Err(CaseFault::Silent { name: name(), field });
+    ] {
+        let empty = text.trim().is_empty();
+        ensure!(!empty, "case `{name}`: `{field}` is empty");
     }
     for (quantity, bound) in &case.tolerance.bounds {
         let sound = match bound {
@@ -124,13 +109,9 @@ fn check(case: &Case) -> Result<(), CaseFault> {
                 *x >= 0.0 && x.is_finite()
             }
             Bound::Interval(low, high) => low <= high,
-            Bound::Coverage(trials) => *trials > 0,
             Bound::Waived(reason) => !reason.trim().is_empty(),
         };
-        if !sound {
-            let (quantity, bound) = (quantity.clone(), bound.clone());
-            return Err(CaseFault::BadBound { name: name(), quantity, bound });
-        }
+        ensure!(sound, "case `{name}`: bound of `{quantity}` is {bound:?}");
     }
     Ok(())
 }

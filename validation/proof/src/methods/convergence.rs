@@ -1,11 +1,11 @@
 //! Order of convergence of the fixed-order steps of Eq. 1.
 
 use anyhow::Result;
-use rocking::integrator::{Impact, Order};
+use rocking::integrator::{Impact, Observe, Order, Solver};
 use serde::Deserialize;
 
 use super::method::{Context, Reply, WrongModel};
-use crate::engine;
+use crate::engine::{Quotient, on_core};
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{CaseScene, Engine as _, Forcing};
 
@@ -35,6 +35,7 @@ pub fn order(context: &Context, answer: &mut Reply) -> Result<()> {
     };
     let order: Order = order.to_string().parse()?;
     let crude = input.order == 4 && context.is(WrongModel::OrderTooLow);
+    let observe = Observe { events: true, ..Observe::default() };
     let run = |division: usize, order: Order| {
         let scene = divided(&input, division);
         if crude && division < FINEST {
@@ -44,7 +45,11 @@ pub fn order(context: &Context, answer: &mut Reply) -> Result<()> {
             let trace = Naive(rules).respond(&scene)?;
             return anyhow::Ok(measures(trace.peak_ratio, &trace.impacts));
         }
-        let found = engine::respond_at_order(&scene, order)?;
+        let order = Some(order);
+        let found = on_core(&scene, Quotient::Rounded, |scene| {
+            let solver = Solver { order, ..Solver::default() };
+            solver.respond(scene, &observe)
+        })?;
         Ok(measures(found.peak_ratio, &found.impacts))
     };
     let truth = run(FINEST, Order::Ten)?;

@@ -8,17 +8,15 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
 use rocking::integrator::{
-    self, Assessment, Certify, Impact, Observe, Outcome, Scene, Solver,
-    certify, respond_precise, uplift_threshold,
+    self, Certify, Impact, Observe, Outcome, Scene, Solver, certify,
+    uplift_threshold,
 };
-use rocking::number::Real;
-use rocking::number::double::DoubleDouble;
-use rocking::number::octuple::Octuple;
+use rocking::number::Real as _;
 
 use super::memo::Memo;
 use super::method::{Context, Reply, WrongModel};
 use crate::scene::Forcing;
-use crate::trials::{Stratum, WORK, trial};
+use crate::trials::{Stratum, WORK, WideTruth, trial, truth};
 
 /// Difference of a peak ratio that counts as another peak.
 const ANOTHER: f64 = 1e-6;
@@ -34,8 +32,8 @@ struct LevelResult {
     certified: IdaPoint,
     /// Bound on the error of the certified peak.
     error: f64,
-    /// Whether the block overturned, and its peak, by wider arithmetic.
-    truth: Option<(bool, f64)>,
+    /// Outcome and peak by wider arithmetic.
+    truth: WideTruth,
     /// The rough estimate with every flight rounded at its landing's speed.
     at_landing: f64,
 }
@@ -92,11 +90,15 @@ impl LevelResult {
     /// Whether a point's fate is another in wider arithmetic, or its peak by
     /// more than so much.
     fn is_other(&self, point: &IdaPoint, error: f64) -> bool {
-        let own = point.outcome.is_overturned();
-        self.truth.is_some_and(|(overturned, peak)| {
-            let gap = (point.outcome.edp() - peak).abs();
-            overturned != own || (!own && !(gap <= error))
-        })
+        let own = &point.outcome;
+        match self.truth {
+            WideTruth::Stands { peak_ratio, .. } => {
+                let gap = (own.edp() - peak_ratio.to_f64()).abs();
+                own.is_overturned() || !(gap <= error)
+            }
+            WideTruth::Overturned => !own.is_overturned(),
+            WideTruth::Undecided => false,
+        }
     }
 }
 
@@ -139,26 +141,13 @@ fn level(index: u64) -> Result<Option<LevelResult>> {
         overturning: of.overturning,
         ..Scene::new(block, restitution, Excitation::Record(record_at))
     };
-    let truth = match truth::<DoubleDouble>(&scene)? {
-        None => truth::<Octuple>(&scene)?,
-        truth => truth,
-    };
+    let truth = truth(&scene, None)?;
     let options = Certify { work_limit: WORK, ..Certify::default() };
     let error = certify(&scene, &options)?.error;
     // A level that is not assessed is as good as one that is not flagged.
     let error = error.unwrap_or(0.0).max(ANOTHER);
     let at_landing = at_landing(&scene, of.restitution, &record)?;
     Ok(Some(LevelResult { alone, lanes, certified, error, truth, at_landing }))
-}
-
-/// Fate and peak in wider arithmetic; none where that does not decide.
-fn truth<N: Real>(scene: &Scene) -> Result<Option<(bool, f64)>> {
-    let observe =
-        Observe { accuracy: true, work_limit: WORK, ..Observe::default() };
-    let response = respond_precise::<N>(scene, &observe)?;
-    let clear = response.assessment() == Assessment::Clear;
-    let overturned = response.outcome.is_overturned();
-    Ok(clear.then(|| (overturned, response.peak_ratio.to_f64())))
 }
 
 /// The rough estimate of a run, its rounding in flight as small as the speed

@@ -4,15 +4,13 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Result, bail};
-use rocking::integrator::{
-    Assessment, CertifiedFate, Observe, Outcome, Response,
-};
+use rocking::integrator::{Assessment, Certify, Observe, Outcome, certify};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
 use super::cells::{Csv, CsvRow};
 use super::method::{Context, Reply};
-use crate::engine::{certify, respond};
+use crate::engine::{Quotient, on_core, respond};
 use crate::scene::{CaseScene, Forcing, Overturning};
 use crate::trials::{CertificateReading, DoubleRun, moved};
 
@@ -87,7 +85,7 @@ impl Counts {
         let until_s = scene.until_s;
         let observe =
             Observe { accuracy: true, until_s, ..Observe::default() };
-        let response: Response = respond(scene, &observe)?;
+        let response = respond(scene, &observe)?;
         let seen = DoubleRun::of(&response);
         let clear = reading.is_clear(&seen);
         let error = match response.assessment() {
@@ -96,7 +94,9 @@ impl Counts {
             _ => f64::INFINITY,
         };
         let right = due.is(&response.outcome, error);
-        let fate: CertifiedFate = certify(scene)?;
+        let fate = on_core(scene, Quotient::Kept, |scene| {
+            certify(scene, &Certify { until_s, ..Certify::default() })
+        })?;
         let bound = fate.error.unwrap_or(f64::INFINITY);
         let certified = due.is(&fate.outcome, bound);
         let surely = fate.resolved && fate.resolved_for_inputs;

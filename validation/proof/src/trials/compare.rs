@@ -1,7 +1,8 @@
 //! A run in double precision against the truth.
 
 use rocking::integrator::{
-    Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
+    Assessment, CLEARANCE, Certificate, Decision, Observe, Response, Scene,
+    SceneError, WorkLimit, respond_precise,
 };
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
@@ -9,7 +10,7 @@ use rocking::number::{Number as _, Real};
 
 use crate::arithmetic::wide;
 use crate::cases::WrongModel;
-use crate::engine::{Quotient, respond, respond_in};
+use crate::engine::{Quotient, on_core, respond};
 use crate::scene::{CaseScene, EngineError};
 
 /// A scene with its address.
@@ -21,7 +22,7 @@ pub struct Trial {
     pub scene: CaseScene,
 }
 
-/// What a run says of itself.
+/// Result of a run in double precision, and its own claims about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleRun {
     /// Whether the block overturned.
@@ -36,7 +37,7 @@ pub struct DoubleRun {
 }
 
 impl DoubleRun {
-    /// What a response says, its peak as a double.
+    /// The result and claims of a response.
     pub fn of(response: &Response) -> Self {
         let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
         Self {
@@ -48,12 +49,12 @@ impl DoubleRun {
     }
 }
 
-/// How a certificate is read: as it is, or as a wrong model reads it.
+/// How a certificate is read: correctly, or as a wrong model reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CertificateReading(pub Option<WrongModel>);
 
 impl CertificateReading {
-    /// The certificate as it is.
+    /// The correct reading.
     pub const WHOLE: Self = Self(None);
 
     /// Factor on every error.
@@ -90,7 +91,7 @@ impl CertificateReading {
     }
 }
 
-/// What wider arithmetic says.
+/// Result of wider arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WideTruth {
     /// The block stands.
@@ -102,7 +103,7 @@ pub enum WideTruth {
     },
     /// The block overturned.
     Overturned,
-    /// No arithmetic at hand decides.
+    /// No available arithmetic decides.
     Undecided,
 }
 
@@ -118,8 +119,8 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Error of the peak beyond what the truth itself leaves open; none
-    /// where one of the two has no peak.
+    /// Error of the peak beyond the uncertainty of the truth; none if either
+    /// has no peak.
     pub fn error(&self) -> Option<f64> {
         let WideTruth::Stands { peak_ratio, error } = self.truth else {
             return None;
@@ -134,13 +135,14 @@ impl Finding {
     }
 }
 
-/// Fate and peak of a trial by wider arithmetic, from the same doubles.
-///
-/// # Errors
-/// [`EngineError`] where the scene is refused.
-pub fn truth(trial: &Trial) -> Result<WideTruth, EngineError> {
-    match by::<DoubleDouble>(trial)? {
-        WideTruth::Undecided => by::<Octuple>(trial),
+/// Outcome and peak of a scene by wider arithmetic, until `until_s` (s):
+/// octuple precision if double-double leaves them open.
+pub(crate) fn truth(
+    scene: &Scene<'_>,
+    until_s: Option<f64>,
+) -> Result<WideTruth, SceneError> {
+    match by::<DoubleDouble>(scene, until_s)? {
+        WideTruth::Undecided => by::<Octuple>(scene, until_s),
         truth => Ok(truth),
     }
 }
@@ -150,15 +152,14 @@ pub(crate) const WORK: WorkLimit =
     WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// The truth by one arithmetic.
-fn by<N: Real>(trial: &Trial) -> Result<WideTruth, EngineError> {
-    let observe = Observe {
-        accuracy: true,
-        until_s: trial.scene.until_s,
-        work_limit: WORK,
-        ..Observe::default()
-    };
-    let rounded = Quotient::Rounded;
-    let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
+fn by<N: Real>(
+    scene: &Scene<'_>,
+    until_s: Option<f64>,
+) -> Result<WideTruth, SceneError> {
+    let (accuracy, work_limit) = (true, WORK);
+    let observe =
+        Observe { accuracy, until_s, work_limit, ..Observe::default() };
+    let response = respond_precise::<N>(scene, &observe)?;
     let error = response.error_estimate.unwrap_or(f64::INFINITY);
     Ok(if response.assessment() != Assessment::Clear {
         WideTruth::Undecided
@@ -170,10 +171,10 @@ fn by<N: Real>(trial: &Trial) -> Result<WideTruth, EngineError> {
     })
 }
 
-/// Runs a trial in double precision and finds out the truth.
+/// Runs a trial in double precision and in wider arithmetic.
 ///
 /// # Errors
-/// [`EngineError`] where the scene is refused.
+/// [`EngineError`] if the scene is refused.
 ///
 /// ```
 /// use rocking_proof::trials::{
@@ -192,6 +193,8 @@ pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
     Ok(Finding {
         name: trial.name.clone(),
         seen: DoubleRun::of(&response),
-        truth: truth(trial)?,
+        truth: on_core(&trial.scene, Quotient::Rounded, |scene| {
+            truth(scene, until_s)
+        })?,
     })
 }

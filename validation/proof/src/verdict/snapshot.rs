@@ -1,5 +1,5 @@
-//! The results of a run as the committed snapshot has them: sorted by id,
-//! rounded to the digits that the bounds support, one value a line.
+//! The committed form of the results: sorted by id, rounded to the digits
+//! that the bounds support, one value a line.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::{CaseOutcome, CaseVerdict, Check};
-use crate::cases::{Bound, Case, EvidenceKind, OracleKind};
+use crate::cases::{Bound, EvidenceKind, OracleKind};
 use rocking_common::json::{self, Extended};
 use rocking_common::words::rounded;
 
@@ -78,30 +78,27 @@ const MOST_DIGITS: usize = 9;
 const MOST_VALUES: usize = 3;
 
 /// The snapshot's text, ending in a line feed.
-pub fn text(cases: &[Case], outcomes: &[CaseOutcome]) -> String {
-    let entry = |outcome: &CaseOutcome| {
-        let case = cases.iter().find(|c| c.id == outcome.id)?;
-        Some((outcome.id.clone(), entry(case, outcome)))
-    };
-    let all: Results = outcomes.iter().filter_map(entry).collect();
+pub fn text(outcomes: &[CaseOutcome]) -> String {
+    let entry =
+        |outcome: &CaseOutcome| (outcome.case.id.clone(), entry(outcome));
+    let all: Results = outcomes.iter().map(entry).collect();
     format!("{:#}\n", json!(all))
 }
 
-fn entry(case: &Case, outcome: &CaseOutcome) -> CaseResult {
-    let quantities = outcome.checks.iter();
-    let rejected = outcome.rejections.iter().map(|rejection| {
-        let margin = Extended(rounded(rejection.margin, 1));
-        let quantity = rejection.quantity.clone();
-        (rejection.model.to_owned(), RejectionResult { margin, quantity })
-    });
+fn entry(outcome: &CaseOutcome) -> CaseResult {
+    let checks = outcome.checks.iter();
+    let mut rejected = outcome.rejections.clone();
+    for by in rejected.values_mut() {
+        by.margin.0 = rounded(by.margin.0, 1);
+    }
     CaseResult {
-        kind: case.kind,
-        method: case.method.clone(),
-        oracle: case.expect.oracle,
-        quantities: quantities
+        kind: outcome.case.kind,
+        method: outcome.case.method.clone(),
+        oracle: outcome.case.expect.oracle,
+        quantities: checks
             .map(|check| (check.quantity.clone(), quantity(check)))
             .collect(),
-        rejected: rejected.collect(),
+        rejected,
         verdict: outcome.verdict,
     }
 }
@@ -117,7 +114,6 @@ fn quantity(check: &Check) -> QuantityResult {
             Bound::Interval(low, high) => {
                 json!([low, high].map(|x| Extended(*x)))
             }
-            Bound::Coverage(trials) => json!(trials),
             Bound::Waived(_) => Value::Null,
             Bound::Exact => json!(0),
         },
@@ -143,8 +139,7 @@ fn digits(check: &Check) -> usize {
     supported_digits(relative)
 }
 
-/// Significant digits that are printed of a number known to so large a share
-/// of itself.
+/// Significant digits to print of a number with this relative error.
 pub fn supported_digits(relative: f64) -> usize {
     let mut digits = 1;
     let mut unit = 0.1;

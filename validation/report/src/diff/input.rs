@@ -192,10 +192,10 @@ pub fn bounded(
         "exact" => 0.0,
         "absolute" => bound()? + digit,
         "relative" => bound()? * value.abs() + digit,
-        "order" | "coverage" | "interval" | "waived" => return Ok(None),
+        "order" | "interval" | "waived" => return Ok(None),
         other => bail!(
             "found bound {other}, expected exact, absolute, relative, order, \
-             coverage, interval or waived"
+             interval or waived"
         ),
     };
     Ok(Some(Effect::Absolute(tolerance)))

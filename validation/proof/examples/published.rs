@@ -12,7 +12,9 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 use rocking::accelerogram::Accelerogram;
-use rocking_proof::published::{PublishedLaw, PublishedValue, statistics};
+use rocking_proof::methods::published::{
+    PublishedLaw, PublishedValue, statistics,
+};
 use rocking_records::{ReadOptions, Suite};
 
 fn main() -> Result<()> {

@@ -1,7 +1,7 @@
-//! The proof: declared cases, what they are compared with, and the verdict
-//! on each. Nothing here knows the study.
+//! The proof: reference cases, their references and oracles, and the verdicts.
+//! This crate does not depend on the study.
 
-// What only methods left out of a page need.
+// On a page, items that only omitted methods use are dead code.
 #![cfg_attr(target_family = "wasm", allow(dead_code, unused_imports))]
 
 pub mod arithmetic;
@@ -11,8 +11,6 @@ pub mod engine;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
-#[cfg(not(target_family = "wasm"))]
-pub mod published;
 mod pulse;
 mod references;
 pub mod scene;

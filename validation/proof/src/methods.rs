@@ -1,5 +1,4 @@
-//! Registry of what a case can ask to be computed, and how wrong models go
-//! wrong.
+//! Registry of the methods that compute cases.
 
 #[macro_use]
 mod method;
@@ -20,15 +19,12 @@ mod hard;
 mod intensity;
 mod invariance;
 mod memo;
-mod points;
 mod precise;
 #[cfg(not(target_family = "wasm"))]
-mod published;
+pub mod published;
 mod response;
-mod schemes;
 #[cfg(not(target_family = "wasm"))]
 mod scored;
-mod sines;
 mod solution;
 mod spectrum;
 mod squares;
@@ -47,8 +43,10 @@ use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
 use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
+use statistics::{calibration, earthquakes, fits, inference, lilliefors};
+use statistics::{risk, shaking};
 
-/// Methods that a page runs; `statistics` has more.
+/// Methods that a page runs.
 const METHODS: &[Method] = &[
     ("trajectory", response::trajectory),
     ("linear-pulse", response::linear_pulse),
@@ -61,7 +59,7 @@ const METHODS: &[Method] = &[
     ("linear-pulse-grid", closed_forms::pulses),
     ("critical-amplitudes", closed_forms::critical),
     ("fold", closed_forms::fold),
-    ("half-sine-approximation", sines::approximation),
+    ("half-sine-approximation", closed_forms::approximation),
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
@@ -80,27 +78,41 @@ const METHODS: &[Method] = &[
     ("near-saddle", hard::saddle),
     ("chatter", hard::chatter),
     ("double-against-double-double", hard::twin),
-    ("points-of-trajectories", points::trajectories),
-    ("pulse-ends", points::pulse_ends),
+    ("points-of-trajectories", response::points),
+    ("pulse-ends", response::pulse_ends),
     ("precise-trajectory", precise::trajectory),
     ("precise-linear-pulse", precise::linear_pulse),
     ("precise-free-rocking", precise::free_rocking),
     ("precise-rectangular-pulse", precise::rectangular_pulse),
     ("floor", floor::motion),
     ("intensity", intensity::measures),
+    ("sample-moments", fits::moments),
+    ("lilliefors-largest", lilliefors::largest),
+    ("lilliefors-published", lilliefors::published),
+    ("normal-draws", lilliefors::draws),
+    ("fits", fits::fits),
+    ("counts-of-stripes", fits::counts),
+    ("quantiles", fits::quantiles),
+    ("tests-of-normality", fits::tests),
+    ("two-samples", fits::two_samples),
+    ("inversion", fits::inversion),
+    ("equations-5-to-7", risk::transforms),
+    ("annual-frequency", risk::annual_frequency),
+    ("total-fragility", risk::total),
+    ("cornell", risk::cornell),
 ];
 
 /// Methods that a page leaves out. Most take longer than about a second in a
 /// browser: trials of many scenes or samples, whole suites, the data set of
 /// the score. Others need quantiles of Student's and the beta distribution
-/// from `statrs`: it takes the logarithm of the platform, so that their last
-/// digits differ between platforms.
+/// from `statrs`, which uses the logarithm of the platform: their last digits
+/// differ between platforms.
 #[cfg(not(target_family = "wasm"))]
 const LEFT_OUT: &[Method] = &[
-    ("many-half-cycles", sines::many),
+    ("many-half-cycles", closed_forms::many),
     ("critical-durations", closed_forms::durations),
     ("sine-bias", invariance::sine_bias),
-    ("orders-of-naive-schemes", schemes::orders),
+    ("orders-of-naive-schemes", convergence::orders),
     ("fates-over-levels", fates::levels),
     ("adjustment-on-suite", fates::adjustment),
     ("certificate-trials", trials::certificate),
@@ -111,35 +123,50 @@ const LEFT_OUT: &[Method] = &[
     ("diagnosis", scored::diagnosis),
     ("velocity-pulse", velocity_pulse::pulses),
     ("published-laws", published::laws),
+    ("lilliefors-null", lilliefors::null),
+    ("lilliefors-mean", lilliefors::mean),
+    ("lilliefors-table", lilliefors::table),
+    ("lilliefors-asymptotics", lilliefors::asymptotics),
+    ("interval-of-a-probability", risk::interval),
+    ("rejected-share", calibration::rejection),
+    ("coverage", calibration::coverage),
+    ("coverage-of-inference", inference::coverage),
+    ("rates-by-earthquake", earthquakes::rates),
+    ("coverage-of-fits", earthquakes::coverage_of_fits),
+    ("bias", calibration::bias),
+    ("paired-procedures", fits::paired),
+    ("proportions", fits::intervals),
+    ("proportions-of-clusters", fits::of_clusters),
+    ("earthquakes-of-other-packages", earthquakes::other_packages),
+    ("tests-of-other-packages", shaking::other_packages),
+    ("coverage-of-tests", shaking::coverage),
 ];
 #[cfg(target_family = "wasm")]
 const LEFT_OUT: &[Method] = &[];
 
 /// The methods that a page runs.
 pub fn page_methods() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().chain(statistics::METHODS)
+    METHODS.iter()
 }
 
 /// Every registered method.
 pub fn all_methods() -> impl Iterator<Item = &'static Method> {
-    page_methods().chain(LEFT_OUT).chain(statistics::LEFT_OUT)
+    METHODS.iter().chain(LEFT_OUT)
 }
 
-/// Runs a case's method, on the core or on a wrong model.
+/// Runs a case's method on the core or on a wrong model.
 ///
 /// # Errors
-/// An error when no answer can be given.
+/// An error if no answer can be given.
 pub fn run_method(case: &Case, wrong: Option<WrongModel>) -> Result<Reply> {
-    match wrong {
-        Some(mistaken) => run_on(case, &mistaken, wrong),
-        None => run_on(case, &Core, None),
-    }
+    let mistaken = wrong.as_ref().map(|wrong| wrong as &dyn Engine);
+    run_on(case, mistaken.unwrap_or(&Core), wrong)
 }
 
-/// Runs a case's method on the naive integrator with its rules right.
+/// Runs a case's method on the naive integrator with correct rules.
 ///
 /// # Errors
-/// An error when no answer can be given.
+/// An error if no answer can be given.
 pub fn run_naive(case: &Case) -> Result<Reply> {
     run_on(case, &Naive(Rules::default()), None)
 }

@@ -17,7 +17,7 @@ pub use rocking::excitation::{PulseKind, PulseName};
 pub use rocking::integrator::{Impact, Model, Overturning};
 use thiserror::Error;
 
-use crate::pulse;
+use crate::pulse::{particular, turns};
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -193,6 +193,22 @@ pub fn other(model: Model) -> Model {
     }
 }
 
+/// The pulse of this name with an amplitude (m/s2 or m/s) and a duration or
+/// period (s), or a frequency (rad/s or Hz); its other parameters are 4
+/// cycles, gamma 1.5 and phase 0.25.
+pub fn pulse(name: PulseName, amplitude: f64, scale: f64) -> PulseKind {
+    let Ok(kind) = name.kind(|parameter| {
+        Ok::<_, Infallible>(match parameter {
+            P::Amplitude | P::Velocity => amplitude,
+            P::Omega | P::Duration | P::Period | P::Frequency => scale,
+            P::Cycles => 4.0,
+            P::Gamma => 1.5,
+            P::Phase => 0.25,
+        })
+    });
+    kind
+}
+
 impl Forcing {
     /// A block at rest, and no ground motion.
     pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
@@ -208,20 +224,9 @@ impl Forcing {
         Self::samples(record.dt_s(), samples.collect())
     }
 
-    /// The pulse of this name with an amplitude (m/s2 or m/s) and a duration
-    /// or period (s), or a frequency (rad/s or Hz); of 4 cycles, gamma 1.5
-    /// and phase 0.25 where it has such.
+    /// The motion of [`pulse`].
     pub fn pulse(name: PulseName, amplitude: f64, scale: f64) -> Self {
-        let Ok(kind) = name.kind(|parameter| {
-            Ok::<_, Infallible>(match parameter {
-                P::Amplitude | P::Velocity => amplitude,
-                P::Omega | P::Duration | P::Period | P::Frequency => scale,
-                P::Cycles => 4.0,
-                P::Gamma => 1.5,
-                P::Phase => 0.25,
-            })
-        });
-        Self::Pulse(kind)
+        Self::Pulse(self::pulse(name, amplitude, scale))
     }
 
     /// The samples; none where the motion is no record.
@@ -261,7 +266,7 @@ impl Forcing {
     pub fn end_s(&self) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => pulse::turns(*kind).0,
+            Self::Pulse(kind) => turns(*kind).0,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 (acceleration_m_s2.len() - 1) as f64 * dt_s
             }
@@ -275,7 +280,7 @@ impl Forcing {
         let mut at = vec![0.0];
         match *self {
             Self::Free { .. } => {}
-            Self::Pulse(kind) => at.extend(pulse::turns(kind).1),
+            Self::Pulse(kind) => at.extend(turns(kind).1),
             Self::Samples { dt_s, ref acceleration_m_s2 } => {
                 let last = acceleration_m_s2.len() - 1;
                 at.extend((1..last).map(|i| i as f64 * dt_s));
@@ -292,7 +297,7 @@ impl Forcing {
     pub fn at(&self, piece: usize, t_s: f64) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => pulse::particular(*kind, piece, t_s).a,
+            Self::Pulse(kind) => particular(*kind, piece, t_s).a,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 let a = acceleration_m_s2[piece];
                 let b = acceleration_m_s2[piece + 1];

@@ -10,7 +10,7 @@ use crate::cases::{Bound, Case, ToleranceBasis};
 use crate::methods::{self, Quantities, Reply};
 use rocking::names::named;
 use rocking_common::json::Extended;
-use snapshot::RejectionResult;
+use serde::{Deserialize, Serialize};
 
 named! {
     /// Result of a case.
@@ -49,6 +49,16 @@ impl Check {
     }
 }
 
+/// How a wrong model was rejected.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rejection {
+    /// Largest error over bound.
+    pub margin: Extended,
+    /// The quantity that shows it best.
+    pub quantity: String,
+}
+
 /// A judged case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseOutcome {
@@ -57,7 +67,7 @@ pub struct CaseOutcome {
     /// Each quantity.
     pub checks: Vec<Check>,
     /// Each wrong model by its name: a margin above 1 is rejected.
-    pub rejections: BTreeMap<String, RejectionResult>,
+    pub rejections: BTreeMap<String, Rejection>,
     /// The verdict.
     pub verdict: CaseVerdict,
     /// What went wrong, if anything did.
@@ -230,7 +240,7 @@ fn fill(outcome: &mut CaseOutcome, case: &Case) -> Result<()> {
         }
         let quantity = strongest.quantity.clone();
         let margin = Extended(strongest.margin);
-        let rejection = RejectionResult { margin, quantity };
+        let rejection = Rejection { margin, quantity };
         outcome.rejections.insert(name.to_owned(), rejection);
     }
     Ok(())

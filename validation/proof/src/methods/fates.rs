@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Context as _, Result, bail, ensure};
 use serde::Deserialize;
 
 use super::method::{Context, Reply, input_of};
@@ -50,20 +50,18 @@ struct CornerRecord {
     corners: Vec<(usize, f64)>,
 }
 
-impl CornerRecord {
-    fn forcing(&self) -> Result<Forcing> {
-        let mut samples = Vec::new();
-        for pair in self.corners.windows(2) {
-            let [(from, a), (to, b)] = pair else { continue };
-            if to <= from {
-                bail!("corner {to} after corner {from}");
-            }
-            let rise = (b - a) / (to - from) as f64;
-            samples.extend((0..to - from).map(|k| a + rise * k as f64));
-        }
-        samples.extend(self.corners.last().map(|corner| corner.1));
-        Ok(Forcing::samples(self.dt_s, samples))
+/// The record at an interval (s) that runs straight between corner points:
+/// sample number and acceleration in m/s2.
+pub(super) fn through(dt_s: f64, corners: &[(usize, f64)]) -> Result<Forcing> {
+    let mut samples = Vec::new();
+    for pair in corners.windows(2) {
+        let [(from, a), (to, b)] = pair else { continue };
+        ensure!(to > from, "corner {to} after corner {from}");
+        let rise = (b - a) / (to - from) as f64;
+        samples.extend((0..to - from).map(|k| a + rise * k as f64));
     }
+    samples.extend(corners.last().map(|corner| corner.1));
+    Ok(Forcing::samples(dt_s, samples))
 }
 
 impl SceneInput {
@@ -83,7 +81,7 @@ impl SceneInput {
                 scene.shaken(dt_s, samples, *intensity)
             }
             (None, None, Some(record)) => {
-                let forcing = record.forcing()?;
+                let forcing = through(record.dt_s, &record.corners)?;
                 scene.under(|_| forcing)
             }
             _ => bail!("expected one of `half_sine`, `named` and `record`"),

@@ -1,15 +1,16 @@
 //! Scenes made to be hard: beside the saddle, chatter under a constant
 //! acceleration, and double precision against double-double.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use rocking::number::Real as _;
 
+use super::closed_forms::rectangle;
 use super::fates::SceneInput;
 use super::method::{Context, Reply, SPEEDS};
 use crate::engine::{Precision, WideTrace};
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
-use crate::scene::{CaseScene, Forcing, Model, PulseName};
+use crate::scene::{CaseScene, Forcing, Model};
 
 /// Rectangular pulses in Eq. 1 that leave a block an energy so much below
 /// the saddle that its peak stops at a distance from it, or as much above.
@@ -23,8 +24,7 @@ pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     let p = frequency_rad_s;
     for &alpha in &slenderness_rad {
-        let pull = intensity * libm::tan(alpha);
-        let form = Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };
+        let form = Rectangular::new(alpha, p, intensity);
         for &distance in &distances {
             // A peak at alpha (1 - d) has an energy 2 sin^2(alpha d/2) below
             // the saddle's.
@@ -32,10 +32,8 @@ pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
             let depth = 2.0 * half * half;
             for (sign, falls) in [(-1.0, 0.0), (1.0, 1.0)] {
                 let duration_s = form.duration_to_energy_s(sign * depth);
-                let name = PulseName::Rectangle;
-                let pulse = Forcing::pulse(name, pull * 9.81, duration_s);
-                let scene = CaseScene::new([alpha, p, 9.81], 0.92, pulse);
-                let trace = context.engine.respond(&scene.until(100.0 / p))?;
+                let scene = rectangle(&form, duration_s).until(100.0 / p);
+                let trace = context.engine.respond(&scene)?;
                 let over = f64::from(trace.overturned_s.is_some());
                 answer.put("overturned", [over], [falls]);
                 if falls == 0.0 {
@@ -72,13 +70,10 @@ pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut trace = context.engine.respond(&scene)?;
     // The jolt drives theta negative; the first hop on the other side is
     // pressed down harder.
-    if trace.impacts.is_empty() {
-        bail!("no impact");
-    }
+    ensure!(!trace.impacts.is_empty(), "no impact");
     let first = trace.impacts.remove(0);
-    if !(first.time_s > 13.0 * dt_s) {
-        bail!("first impact before the acceleration is steady");
-    }
+    let steady_s = 13.0 * dt_s;
+    ensure!(first.time_s > steady_s, "impact before {steady_s} s");
     let form = free_rocking::chatter(
         equation,
         alpha,

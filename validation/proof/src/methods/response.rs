@@ -1,4 +1,5 @@
-//! Single responses against references: impacts, peaks, rest, overturning.
+//! Single responses against references: impacts, peaks, rest, overturning,
+//! and states along a trajectory.
 
 use anyhow::Result;
 
@@ -8,16 +9,16 @@ use crate::references::{
 };
 use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
-/// A time that there may be, found and due, each times `p`.
-fn put_time(
+/// Puts optional times, found and due, each times `p`.
+fn put_times<const N: usize>(
     answer: &mut Reply,
-    name: &str,
-    found_s: Option<f64>,
-    due: Option<Decimal>,
     p: f64,
+    times: [(&str, Option<f64>, Option<Decimal>); N],
 ) {
-    let due = due.map(|t| t.near * p);
-    answer.put(name, found_s.map(|t| t * p), due);
+    for (name, found_s, due) in times {
+        let due = due.map(|t| t.near * p);
+        answer.put(name, found_s.map(|t| t * p), due);
+    }
 }
 
 /// A sampled or pulse trajectory of 36 digits.
@@ -29,18 +30,19 @@ pub fn trajectory(context: &Context, answer: &mut Reply) -> Result<()> {
     let p = scene.frequency_rad_s;
     let trace = context.engine.respond(&scene)?;
     let first = context.engine.respond(&scene.to(Overturning::Alpha))?;
-
     let uplift = due.uplifts.first();
-    let at = uplift.map(|u| u.t);
-    put_time(answer, "uplift-time-p", trace.uplift_s, at, p);
-    let rest = due.rest_times.last().copied();
-    put_time(answer, "rest-time-p", trace.rest_s, rest, p);
     let half_pi = due.overturned(Overturning::HalfPi);
-    put_time(answer, "half-pi-time-p", trace.overturned_s, half_pi, p);
     let alpha = due.overturned(Overturning::Alpha);
-    put_time(answer, "alpha-time-p", first.overturned_s, alpha, p);
+    let times = [
+        ("uplift-time-p", trace.uplift_s, uplift.map(|u| u.t)),
+        ("rest-time-p", trace.rest_s, due.rest_times.last().copied()),
+        ("half-pi-time-p", trace.overturned_s, half_pi),
+        ("alpha-time-p", first.overturned_s, alpha),
+    ];
+    put_times(answer, p, times);
     if half_pi.is_none() {
-        put_time(answer, "peak-time-p", trace.peak_time_s, due.t_peak, p);
+        let peak = ("peak-time-p", trace.peak_time_s, due.t_peak);
+        put_times(answer, p, [peak]);
         let peak = due.peak().map(|peak| peak.near);
         answer.put("peak-ratio", [trace.peak_ratio], peak);
     }
@@ -92,8 +94,8 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     let trace = context.engine.respond(&scene.in_equation(equation))?;
     answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&due.impacts, p));
     answer.put("peak-ratio", [trace.peak_ratio], [rotation_rad / alpha]);
-    let settling = Some(due.settling_time);
-    put_time(answer, "rest-time-p", trace.rest_s, settling, p);
+    let rest = ("rest-time-p", trace.rest_s, Some(due.settling_time));
+    put_times(answer, p, [rest]);
     Ok(())
 }
 
@@ -108,19 +110,70 @@ pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [0.0]);
     let half_pi = case.overturned(Overturning::HalfPi);
     if half_pi.is_some() {
-        put_time(answer, "half-pi-time-p", trace.overturned_s, half_pi, p);
         let alpha = case.overturned(Overturning::Alpha);
         let first = run(Overturning::Alpha)?;
-        put_time(answer, "alpha-time-p", first.overturned_s, alpha, p);
+        let times = [
+            ("half-pi-time-p", trace.overturned_s, half_pi),
+            ("alpha-time-p", first.overturned_s, alpha),
+        ];
+        put_times(answer, p, times);
         return Ok(());
     }
-    put_time(answer, "peak-time-p", trace.peak_time_s, case.t_peak, p);
-    if case.settling_time.is_some() {
-        let due = case.settling_time;
-        put_time(answer, "rest-time-p", trace.rest_s, due, p);
+    let peak = ("peak-time-p", trace.peak_time_s, case.t_peak);
+    put_times(answer, p, [peak]);
+    if let Some(due) = case.settling_time {
+        put_times(answer, p, [("rest-time-p", trace.rest_s, Some(due))]);
     }
     answer.put_impacts(SPEEDS, &trace, [p, 1.0], &hits(&case.impacts, p));
     let peak = case.peak_over_alpha.map(|peak| peak.near);
     answer.put("peak-ratio", [trace.peak_ratio], peak);
+    Ok(())
+}
+
+/// Checkpoints of trajectories, and the peak of every hop that they list.
+pub fn points(context: &Context, answer: &mut Reply) -> Result<()> {
+    input!(context; entries: Vec<String>);
+    for entry in &entries {
+        let case = references::trajectory(entry)?;
+        let scene = case.scene(Overturning::HalfPi)?;
+        let (alpha, p) = (scene.slenderness_rad, scene.frequency_rad_s);
+        let mut put = |names: [&str; 2], time_s, due: [f64; 2]| {
+            let seen = context.state(&scene, time_s)?;
+            let speed = seen.velocity_rad_s / (p * alpha);
+            answer.put(names[0], [seen.rotation_rad / alpha], [due[0]]);
+            answer.put(names[1], [speed], [due[1]]);
+            anyhow::Ok(())
+        };
+        for point in &case.expected.checkpoints {
+            let names = ["checkpoint-rotations", "checkpoint-velocities"];
+            let velocity = point.theta_dot.near / (p * alpha);
+            let due = [point.theta.near / alpha, velocity];
+            put(names, point.t.near, due)?;
+        }
+        // At its peak the block is at rest for an instant.
+        for hop in &case.expected.hops {
+            let names = ["hop-peaks", "velocity-at-hop-peaks"];
+            let peak = hop.side * hop.abs_theta_over_alpha.near;
+            put(names, hop.t.near, [peak, 0.0])?;
+        }
+    }
+    Ok(())
+}
+
+/// Coordinates on the growing and the decaying manifold of the saddle,
+/// z - 1 + z' and z - 1 - z', at the end of a pulse in Eq. 2.
+pub fn pulse_ends(context: &Context, answer: &mut Reply) -> Result<()> {
+    input!(context; block: [f64; 3]);
+    let [alpha, p, _] = block;
+    for case in &LINEAR_PULSES.read()?.cases {
+        let Some(due) = &case.expected.state_at_pulse_end else { continue };
+        let scene = case.scene(block, Overturning::HalfPi)?;
+        let seen = context.state(&scene, scene.forcing.end_s())?;
+        let side = seen.rotation_rad.signum();
+        let z = side * seen.rotation_rad / alpha;
+        let w = side * seen.velocity_rad_s / (p * alpha);
+        answer.put("growing", [z - 1.0 + w], [due.growing.near]);
+        answer.put("decaying", [z - 1.0 - w], [due.decaying.near]);
+    }
     Ok(())
 }

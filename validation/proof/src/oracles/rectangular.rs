@@ -16,11 +16,10 @@ pub struct Rectangular {
 }
 
 impl Rectangular {
-    fn turned(&self) -> (f64, f64) {
-        let psi = libm::atan(self.pull);
-        let rate =
-            self.frequency_rad_s * (1.0 + self.pull * self.pull).sqrt().sqrt();
-        (psi - self.alpha_rad, rate)
+    /// The block (alpha in rad, p in rad/s) under `intensity` times tan alpha.
+    pub fn new(alpha: f64, p: f64, intensity: f64) -> Self {
+        let pull = intensity * libm::tan(alpha);
+        Self { alpha_rad: alpha, frequency_rad_s: p, pull }
     }
 
     /// Time in s at which the pulse has lifted the block to y:
@@ -28,7 +27,9 @@ impl Rectangular {
     /// delta = psi - alpha, q = sin(delta/2), S1 = sin^2((y + delta)/2),
     /// S = S1 - q^2, C = 1 - S1, P = p (1 + (a/g)^2)^(1/4).
     pub fn time_s(&self, y_rad: f64) -> f64 {
-        let (delta, rate) = self.turned();
+        let delta = libm::atan(self.pull) - self.alpha_rad;
+        let turn = (1.0 + self.pull * self.pull).sqrt().sqrt();
+        let rate = self.frequency_rad_s * turn;
         let q = libm::sin(0.5 * delta);
         let s1 = libm::sin(0.5 * (y_rad + delta));
         let s1 = s1 * s1;
@@ -44,7 +45,7 @@ impl Rectangular {
     pub fn duration_to_energy_s(&self, above: f64) -> f64 {
         let half = libm::sin(0.5 * self.alpha_rad);
         let need = (2.0 * half * half + above) / self.pull;
-        let y = self.alpha_rad - libm::asin(libm::sin(self.alpha_rad) - need);
-        self.time_s(y)
+        let sine = libm::sin(self.alpha_rad) - need;
+        self.time_s(self.alpha_rad - libm::asin(sine))
     }
 }

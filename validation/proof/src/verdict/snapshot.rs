@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::{CaseOutcome, CaseVerdict, Check};
+use super::{CaseOutcome, CaseVerdict, Check, Rejection};
 use crate::cases::{Bound, EvidenceKind, OracleKind};
 use rocking_common::json::{self, Extended};
 use rocking_common::words::rounded;
@@ -27,7 +27,7 @@ pub struct CaseResult {
     /// Quantities by name.
     pub quantities: BTreeMap<String, QuantityResult>,
     /// Wrong models that the case rejected.
-    pub rejected: BTreeMap<String, RejectionResult>,
+    pub rejected: BTreeMap<String, Rejection>,
     /// The verdict.
     pub verdict: CaseVerdict,
 }
@@ -46,16 +46,6 @@ pub struct QuantityResult {
     pub margin: Extended,
     /// Number of values.
     pub values: usize,
-}
-
-/// How a wrong model was rejected.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RejectionResult {
-    /// Largest error over bound.
-    pub margin: Extended,
-    /// The quantity that shows it best.
-    pub quantity: String,
 }
 
 impl CaseResult {

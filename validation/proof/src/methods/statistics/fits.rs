@@ -1,6 +1,10 @@
-//! Fits, quantiles, tests and paired procedures against other packages.
+//! Estimates, quantiles, tests and intervals against values of other packages
+//! and certified data sets; the inversion of response curves against examples
+//! in exact rationals.
 
-use anyhow::Result;
+use anyhow::{Context as _, Result};
+use rocking::capacity::{InversionRule, ResponseCurve};
+use rocking_statistics::estimate::EstimateError;
 use rocking_statistics::lilliefors::Statistic;
 use rocking_statistics::lognormal::{Stripe, fit, fit_counts};
 use rocking_statistics::normality::{
@@ -9,7 +13,11 @@ use rocking_statistics::normality::{
 use rocking_statistics::paired::{
     SignTest, equivalence, hodges_lehmann, sign_equivalence,
 };
-use rocking_statistics::{ExtendedSample, QuantileType, Sample};
+use rocking_statistics::two_sample::kolmogorov_smirnov;
+use rocking_statistics::{
+    Clusters, ExtendedSample, Interval, Proportion, QuantileType, Sample,
+    normal,
+};
 
 use super::truths::divided;
 use crate::methods::cells::Csv;
@@ -168,6 +176,145 @@ pub fn paired(context: &Context, answer: &mut Reply) -> Result<()> {
     for (name, own) in own {
         let row = PAIRED.row(&[&letter, name])?;
         row.put(answer, 2, &[(&name.replace('_', "-"), own)])?;
+    }
+    Ok(())
+}
+
+const UNIVARIATE: Csv = Csv::new("nist/univariate.csv");
+
+/// Mean and standard deviation of a certified data set.
+pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
+    input!(context; set: String);
+    let row = &UNIVARIATE.rows(&set)?[0];
+    let values = row.list(4, ' ')?;
+    let sample = Sample::try_new(&values)?;
+    let n = values.len() as f64;
+    // One pass, sum x^2 - (sum x)^2/n.
+    let (sum, square) =
+        values.iter().fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
+    let pass = square - sum * sum / n;
+    let right = sample.sum_of_squares();
+    let squares = context.or(WrongModel::SumOfSquares, pass, right);
+    let divisor = context.or(WrongModel::OtherDivisor, n, n - 1.0);
+    let deviation = (squares / divisor).sqrt();
+    let quantities =
+        [("mean", sample.mean()), ("standard-deviation", deviation)];
+    row.put(answer, 1, &quantities)
+}
+
+/// Kolmogorov's and Smirnov's distance of every two of the samples, and its
+/// p-value.
+pub fn two_samples(context: &Context, answer: &mut Reply) -> Result<()> {
+    input!(context; samples: Vec<Vec<f64>>);
+    let samples = samples
+        .iter()
+        .map(|values| ExtendedSample::try_new(values))
+        .collect::<Result<Vec<_>, _>>()?;
+    for (i, a) in samples.iter().enumerate() {
+        for b in &samples[i + 1..] {
+            let found = kolmogorov_smirnov(a, b);
+            // The asymptotic tail of one side, doubled.
+            let (n, m) = (a.len() as f64, b.len() as f64);
+            let d = found.statistic;
+            let doubled = 2.0 * libm::exp(-2.0 * d * d * n * m / (n + m));
+            let p = found.p_value;
+            let p = context.or(WrongModel::OneSideDoubled, doubled, p);
+            answer.see("distance", [found.statistic]);
+            answer.see("p-value", [p]);
+        }
+    }
+    Ok(())
+}
+
+/// Capacities at the levels by every rule, and the number of crossings.
+pub fn inversion(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        /// (IM, EDP), the first with EDP 0.
+        curve: Vec<(f64, f64)>,
+        overturning: Option<f64>, levels: Vec<f64>,
+    }
+    let mut vertices = curve.clone();
+    let mut overturning = overturning;
+    if context.is(WrongModel::OverturningAsAnAngle)
+        && let Some(im) = overturning.take()
+    {
+        // pi/2 at alpha = 0.05, interpolated to.
+        vertices.push((im, 31.415_926_535_897_93));
+    }
+    let curve = ResponseCurve::try_new(&vertices, overturning)?;
+    for level in levels {
+        // Strictly above instead of at or above.
+        let above = level * (1.0 + f64::EPSILON);
+        let level = context.or(WrongModel::OpenCrossings, above, level);
+        let crossings = curve.crossings(level)?;
+        answer.see("crossings", [crossings.all().len() as f64]);
+        for named in InversionRule::ALL {
+            let rule = match (context.wrong, named) {
+                (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
+                    InversionRule::First
+                }
+                _ => named,
+            };
+            answer.see(named.name(), [crossings.capacity(rule).im()]);
+        }
+    }
+    Ok(())
+}
+
+const PROPORTION: Csv = Csv::new("oracles/proportion.csv");
+
+const LEVEL: f64 = 0.95;
+
+/// Wilson's interval, which is not exact.
+fn wilson(
+    share: f64,
+    trials: usize,
+    level: f64,
+) -> Result<Interval, EstimateError> {
+    let (z, n) = (normal::quantile(0.5 * (1.0 + level)), trials as f64);
+    let middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    let spread = share * (1.0 - share) / n + z * z / (4.0 * n * n);
+    let half = z * spread.sqrt() / (1.0 + z * z / n);
+    Interval::try_new(middle - half, middle + half)
+}
+
+/// Exact intervals of probabilities, alone or of many at once.
+pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        /// Successes and trials.
+        counts: Vec<(usize, usize)>,
+        /// How many such probabilities are held at once.
+        together: usize,
+    }
+    for (successes, trials) in counts {
+        let one = Proportion::try_new(successes, trials)?;
+        let count = context.or(WrongModel::PointwiseIntervals, 1, together);
+        let all = vec![one; count];
+        let band = Proportion::band(&all, LEVEL)?;
+        let mut interval = *band.first().context("no probability")?;
+        if context.is(WrongModel::WilsonInterval) {
+            let level = 1.0 - (1.0 - LEVEL) / count as f64;
+            interval = wilson(one.share(), trials, level)?;
+        }
+        let words = [successes, trials, together].map(|k| k.to_string());
+        let row = PROPORTION.row(&words.each_ref().map(String::as_str))?;
+        let ends = [("low", interval.low()), ("high", interval.high())];
+        row.put(answer, 3, &ends)?;
+    }
+    Ok(())
+}
+
+/// Intervals at 90 % of counts over clusters, by the effective number of
+/// trials.
+pub fn of_clusters(context: &Context, answer: &mut Reply) -> Result<()> {
+    for row in PROPORTION.rows("clusters")? {
+        let clusters = Clusters::from_labels(row.text(1).split(' '));
+        let held = row.list(2, ' ')?;
+        let held: Vec<bool> = held.into_iter().map(|x| x > 0.0).collect();
+        let drawn = context.drawn(&clusters);
+        let found = Proportion::of_clusters(&held, &drawn)?.interval(0.9)?;
+        let ends = [("low", found.low()), ("high", found.high())];
+        row.put(answer, 3, &ends)?;
     }
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! Scenes whose first hop after rest grazes the base: the block lifts, falls
 //! back, and is caught within rounding of its base while it hardly moves.
-//! Shaking that follows magnifies what the graze leaves.
+//! Shaking that follows magnifies the error that the graze leaves.
 //!
-//! Nothing but the fast part of that hop shows that its rotation is rounded:
-//! the block starts without error and lands slowly.
+//! Only the fast part of that hop shows that its rotation is rounded: the
+//! block starts without error and lands slowly.
 
 use rocking::integrator::Observe;
 
@@ -13,11 +13,11 @@ use super::search::{geometric, near, sides};
 use crate::engine::respond;
 use crate::scene::{CaseScene, EngineError, Forcing};
 
-/// Blocks drawn, at most, to find one that grazes.
+/// Most blocks drawn to find one that grazes.
 const ATTEMPTS: usize = 40;
-/// Units in the last place by which the graze is missed, at most.
+/// Most units in the last place by which the graze is missed.
 const NEAR: usize = 1 << 26;
-/// Change of the peak over the graze that is worth looking at.
+/// Least change of the peak across the graze for a scene to be used.
 const COUNTS: f64 = 1e-6;
 
 /// A graze of the first hop, then shaking.
@@ -69,17 +69,15 @@ fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
     };
     let range = geometric(1.05 * threshold, 4.0 * threshold);
     let range = (&range[..], first);
-    let Some([a, b]) = sides(draw, range, at, impacts, turns)? else {
+    let Some(sides) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
-    let peak = |scene: &CaseScene| {
-        let response = respond(scene, &Observe::default())?;
+    let peak = |x: f64| {
+        let response = respond(&(sides.0)(x), &Observe::default())?;
         let over = response.outcome.is_overturned();
-        Ok::<_, EngineError>((!over).then_some(response.peak_ratio))
+        Ok(if over { f64::NAN } else { response.peak_ratio })
     };
-    match (peak(&a.0)?, peak(&b.0)?) {
-        (Some(x), Some(y)) if (x - y).abs() > COUNTS => {}
-        _ => return Ok(None),
-    }
-    Ok(Some(near(draw, NEAR, [a, b])))
+    let [a, b] = sides.1;
+    let counts = (peak(a)? - peak(b)?).abs() > COUNTS;
+    Ok(counts.then(|| near(draw, NEAR, sides)))
 }

@@ -1,8 +1,8 @@
 //! Scenes in which a discrete decision is taken within rounding.
 //!
-//! Each is found by bisection on one number, in double precision, down to
-//! neighbouring doubles between which the decision changes, and then moved by
-//! some units in the last place. What follows makes the decision count.
+//! Bisection on one number, in double precision, finds the neighbouring
+//! doubles between which the decision changes; the scene is then moved by some
+//! units in the last place. The later ground motion makes the decision count.
 
 use rocking::integrator::{Observe, Response};
 
@@ -13,17 +13,17 @@ use super::search::{geometric, linear, moved, near, sides};
 use crate::engine::respond;
 use crate::scene::{CaseScene, EngineError, Forcing};
 
-/// Scenes drawn, at most, to find one that grazes.
+/// Most scenes drawn to find one that grazes.
 const ATTEMPTS: usize = 40;
-/// Units in the last place by which a decision is missed, at most.
+/// Most units in the last place by which a decision is missed.
 const NEAR: usize = 1000;
-/// The same for fates.
+/// The same for outcomes.
 const NEAR_FATE: usize = 10_000;
 /// Kinds of decision.
 const KINDS: u64 = 5;
-/// Change of the peak over a contact that is worth looking at.
+/// Least change of the peak across a contact for a scene to be used.
 const COUNTS: f64 = 1e-11;
-/// Samples of the part of a record that grazes, at most.
+/// Most samples of the part of a record that grazes.
 const LONGEST: usize = 400;
 
 /// The scene of an index: one kind of decision after the other.
@@ -64,32 +64,29 @@ fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
         let over = response.outcome.is_overturned();
         Ok((!over).then_some(response.work.impacts))
     };
-    // One impact more is one that the time looked at cuts off; two are a
-    // contact and the return from it.
-    let turns = |a: &Option<u64>, b: &Option<u64>| match (a, b) {
-        (Some(a), Some(b)) => a.abs_diff(*b) == 2,
-        _ => false,
+    // One more impact is cut off by the end of the run; two are a contact and
+    // the return from it.
+    let turns = |a: &Option<u64>, b: &Option<u64>| {
+        a.zip(*b).is_some_and(|(a, b)| a.abs_diff(b) == 2)
     };
     let range = (&linear(0.7, 1.7)[..], first.len());
-    let Some([a, b]) = sides(draw, range, at, impacts, turns)? else {
+    let Some(sides) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
-    let peak = |scene: &CaseScene| {
-        let response = respond(scene, &Observe::default())?;
-        Ok::<f64, EngineError>(response.peak_ratio)
+    let peak = |x: f64| -> Result<f64, EngineError> {
+        Ok(respond(&(sides.0)(x), &Observe::default())?.peak_ratio)
     };
-    if !((peak(&a.0)? - peak(&b.0)?).abs() > COUNTS) {
-        return Ok(None);
-    }
-    Ok(Some(("contact".to_owned(), near(draw, NEAR, [a, b]))))
+    let [a, b] = sides.1;
+    let counts = (peak(a)? - peak(b)?).abs() > COUNTS;
+    Ok(counts.then(|| ("contact".to_owned(), near(draw, NEAR, sides))))
 }
 
-/// An amplitude between two fates.
+/// An amplitude between two outcomes.
 fn fate(
     draw: &mut Draw,
     which: usize,
 ) -> Result<Option<NamedScene>, EngineError> {
-    // A block that is released stands: a record takes that place.
+    // A released block stays up: a record takes the place of the release.
     let (kind, mut scene) = match which % PULSES {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
         k => under_pulse(draw, k),
@@ -98,8 +95,9 @@ fn fate(
     let at = |amplitude: f64| {
         let mut scene = scene.clone();
         // A pulse's quotient is 1 or -1: its amplitude takes every double.
-        let change = |a: &mut f64| *a = *a / size * amplitude;
-        scene.forcing.amplitudes_mut().iter_mut().for_each(change);
+        for a in scene.forcing.amplitudes_mut() {
+            *a = *a / size * amplitude;
+        }
         scene
     };
     let range = (&geometric(0.5 * size, 10.0 * size)[..], usize::MAX);
@@ -122,7 +120,7 @@ fn uplift(draw: &mut Draw) -> Result<NamedScene, EngineError> {
         (0..draw.below(50)).map(|_| draw.uniform(-below, below)).collect();
     samples.extend(vec![peak; held.clamp(1, 1000)]);
     let then = shock(draw, &scene, &samples, dt_s)?;
-    // A shock that drives the block on at once leaves it no time to forget.
+    // If the shock drives the block on at once, the decision still counts.
     let strong = then.iter().position(|x| x.abs() > threshold).unwrap_or(0);
     let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
     let skipped = if draw.chance(0.7) { strong } else { 0 };
@@ -139,9 +137,8 @@ fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
-    let first: Vec<f64> = if draw.chance(0.5) {
-        let half = std::f64::consts::PI / length as f64;
-        (0..=length).map(|k| libm::sin(half * k as f64)).collect()
+    let first = if draw.chance(0.5) {
+        half_sine(length, 1.0)
     } else {
         normalised(filtered(draw, length, dt_s))
     };
@@ -181,11 +178,8 @@ fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     scene.forcing = Forcing::samples(dt_s, Vec::new());
     let threshold = scene.threshold_m_s2();
     let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
-    let half = std::f64::consts::PI / length as f64;
-    let size = draw.log(1.2, 2.5) * threshold;
-    let first = (0..=length).map(|k| size * libm::sin(half * k as f64));
-    let quiet = std::iter::repeat_n(0.0, (5.0 / in_p) as usize);
-    let first: Vec<f64> = first.chain(quiet).collect();
+    let mut first = half_sine(length, draw.log(1.2, 2.5) * threshold);
+    first.resize(first.len() + (5.0 / in_p) as usize, 0.0);
     let turns = draw.log(3.0, 15.0);
     let n = (draw.uniform(50.0, 200.0) / in_p) as usize;
     let shaking = normalised(noise(draw, n, turns * in_p));
@@ -199,8 +193,8 @@ fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     Ok(found.map(|ends| (name, near(draw, NEAR_FATE, ends))))
 }
 
-/// A shock after what came before: strong, but in most cases not so strong
-/// that it overturns the block.
+/// A shock after earlier samples: strong, but in most cases too weak to
+/// overturn the block.
 fn shock(
     draw: &mut Draw,
     scene: &CaseScene,
@@ -225,6 +219,12 @@ fn shock(
     Ok(samples)
 }
 
+/// Half a sine of this size in `length` intervals.
+fn half_sine(length: usize, size: f64) -> Vec<f64> {
+    let half = std::f64::consts::PI / length as f64;
+    (0..=length).map(|k| size * libm::sin(half * k as f64)).collect()
+}
+
 fn run_until(
     scene: &CaseScene,
     until_s: f64,
@@ -237,7 +237,7 @@ fn overturns(scene: &CaseScene) -> Result<bool, EngineError> {
     Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
 }
 
-/// So many units in the last place, at most, to either side.
+/// At most `most` units in the last place, to either side.
 pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
     if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }

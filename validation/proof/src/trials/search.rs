@@ -1,11 +1,9 @@
 //! Search for the two neighbouring doubles between which a decision turns.
 
-use std::rc::Rc;
-
 use super::draw::Draw;
 use crate::scene::{CaseScene, EngineError, Forcing};
 
-/// Parts into which the range of the number is divided to find a change.
+/// Parts into which a range is divided to find a change.
 const PARTS: usize = 24;
 
 /// Numbers that divide a range evenly.
@@ -16,34 +14,30 @@ pub(super) fn linear(low: f64, high: f64) -> Vec<f64> {
 
 /// Numbers that divide a range of positive numbers by equal ratios.
 pub(super) fn geometric(low: f64, high: f64) -> Vec<f64> {
-    linear(libm::log(low), libm::log(high))
-        .into_iter()
-        .map(libm::exp)
-        .collect()
+    let logs = linear(libm::log(low), libm::log(high));
+    logs.into_iter().map(libm::exp).collect()
 }
 
-/// A scene that a number makes, with the number and what else it makes.
-pub(super) type SearchSide<'a> = (CaseScene, f64, SceneMaker<'a>);
+/// A function that makes a scene from a number.
+pub(super) type SceneMaker<'a> = Box<dyn Fn(f64) -> CaseScene + 'a>;
 
-/// What makes a scene from a number.
-pub(super) type SceneMaker<'a> = Rc<dyn Fn(f64) -> CaseScene + 'a>;
+/// Two neighbouring doubles between which a decision turns, and the function
+/// that makes their scenes.
+pub(super) type Sides<'a> = (SceneMaker<'a>, [f64; 2]);
 
-/// Two scenes of neighbouring doubles between which a decision turns,
-/// somewhere in a rising range; none where it does not. `at` makes the scene
-/// of a positive number, `see` looks at it, `turns` says whether two sights
-/// lie on the two sides; `first` samples of a record come before the
-/// decision, at most.
+/// The sides of a decision that turns somewhere in a rising range; none if it
+/// does not. `at` makes the scene of a positive number, `see` observes it,
+/// `turns` compares two observations; at most `first` samples of a record
+/// come before the decision.
 pub(super) fn sides<'a, V>(
     draw: &mut Draw,
     (range, first): (&[f64], usize),
     at: impl Fn(f64) -> CaseScene + 'a,
     see: impl Fn(&CaseScene) -> Result<V, EngineError>,
     turns: impl Fn(&V, &V) -> bool,
-) -> Result<Option<[SearchSide<'a>; 2]>, EngineError> {
-    let seen = range
-        .iter()
-        .map(|x| see(&at(*x)))
-        .collect::<Result<Vec<_>, EngineError>>()?;
+) -> Result<Option<Sides<'a>>, EngineError> {
+    let seen = range.iter().map(|x| see(&at(*x)));
+    let seen = seen.collect::<Result<Vec<_>, EngineError>>()?;
     let places: Vec<usize> =
         (1..range.len()).filter(|k| turns(&seen[k - 1], &seen[*k])).collect();
     if places.is_empty() {
@@ -51,17 +45,16 @@ pub(super) fn sides<'a, V>(
     }
     let place = draw.one_of(&places);
     let ends = [range[place - 1], range[place]];
-    let at: SceneMaker<'a> = Rc::new(at);
+    let at: SceneMaker<'a> = Box::new(at);
     let Some(ends) = bisected(ends, &*at, &see, &turns)? else {
         return Ok(None);
     };
-    let fine = if draw.chance(0.7) {
-        finer(draw, &at(ends[1]), first, &see, &turns)?
-    } else {
-        None
-    };
-    let (at, ends) = fine.unwrap_or((at, ends));
-    Ok(Some(ends.map(|x| (at(x), x, Rc::clone(&at)))))
+    if draw.chance(0.7)
+        && let Some(fine) = finer(draw, &at(ends[1]), first, &see, &turns)?
+    {
+        return Ok(Some(fine));
+    }
+    Ok(Some((at, ends)))
 }
 
 /// Neighbouring doubles between two positive numbers.
@@ -88,15 +81,15 @@ fn bisected<V>(
     }
 }
 
-/// The same by the size of one sample, which moves the block far less than
-/// one unit in the last place of them all.
+/// The sides by the size of one sample, which moves the block far less than
+/// one unit in the last place of all samples.
 fn finer<'a, V>(
     draw: &mut Draw,
     scene: &CaseScene,
     first: usize,
     see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
     turns: &impl Fn(&V, &V) -> bool,
-) -> Result<Option<(SceneMaker<'a>, [f64; 2])>, EngineError> {
+) -> Result<Option<Sides<'a>>, EngineError> {
     let Forcing::Samples { acceleration_m_s2: samples, .. } = &scene.forcing
     else {
         return Ok(None);
@@ -104,7 +97,7 @@ fn finer<'a, V>(
     let place = draw.below(first.min(samples.len()));
     let (size, sign) = (samples[place].abs(), samples[place].signum());
     let own = scene.clone();
-    let at: SceneMaker<'a> = Rc::new(move |size: f64| {
+    let at: SceneMaker<'a> = Box::new(move |size: f64| {
         let mut scene = own.clone();
         scene.forcing.amplitudes_mut()[place] = sign * size;
         scene
@@ -124,20 +117,16 @@ fn finer<'a, V>(
     Ok(None)
 }
 
-/// One of two neighbouring scenes, moved away by some units in the last
-/// place at most.
+/// The scene of one of the sides, moved away from the other by at most `most`
+/// units in the last place.
 pub(super) fn near(
     draw: &mut Draw,
     most: usize,
-    [(low, below, at), (high, above, _)]: [SearchSide<'_>; 2],
+    (at, [below, above]): Sides<'_>,
 ) -> CaseScene {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) as i64 };
-    match (draw.chance(0.5), ulps) {
-        (true, 0) => low,
-        (false, 0) => high,
-        (true, ulps) => at(moved(below, -ulps)),
-        (false, ulps) => at(moved(above, ulps)),
-    }
+    let low = draw.chance(0.5);
+    at(if low { moved(below, -ulps) } else { moved(above, ulps) })
 }
 
 /// A positive number moved by units in the last place.

@@ -141,7 +141,6 @@ fn words(bound: &Bound) -> String {
         Bound::Relative(x) => format!("{x:.1e} relative"),
         Bound::Interval(low, high) => format!("{low} to {high}"),
         Bound::Order(slack) => format!("order, less {slack}"),
-        Bound::Coverage(trials) => format!("coverage in {trials} trials"),
         Bound::Waived(reason) => format!("waived ({reason})"),
     }
 }

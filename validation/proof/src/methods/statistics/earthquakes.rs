@@ -1,11 +1,11 @@
-//! Records of shared earthquakes: what intervals and tests do when the truth
-//! is known, and numbers of other packages.
+//! Records of shared earthquakes: error rates of intervals and tests under a
+//! known truth, and numbers of other packages.
 //!
 //! ln capacity of record r of earthquake g is sqrt(c) u_g + sqrt(1 - c) e_r
 //! times the dispersion, with standard normal u and e and the intraclass
 //! correlation c.
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context as _, Result};
 use libm::{exp, pow};
 use rocking_procedures::counts::RecordOutcome;
 use rocking_procedures::fragility::hazard::{Hazard, HazardOptions};
@@ -42,7 +42,7 @@ const HAZARD_ABOVE: &str = "intensity,annual_frequency\n\
 /// by SciPy's quad.
 const ABOVE_SHIFT: f64 = 1.952_210_448_109_6e-5;
 
-/// What is judged.
+/// The rate that is measured.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum RateMeasure {
@@ -58,22 +58,19 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: RateMeasure, suite: SuiteShape, intraclass: f64, trials: u64,
     }
-    let suite = |index| Simulated::new(context, suite, intraclass, index);
-    let (found, nominal) = match measure {
-        RateMeasure::Counts => {
-            (self::trials(trials, |k| suite(k).counts_hold(k)), 0.95)
-        }
-        RateMeasure::Slope => {
-            let trial = |k| {
-                let own = suite(k);
-                let found = mixed(&own.attribute, &own.logs, &own.drawn)?;
-                Ok(found.p_value < 0.05)
-            };
-            (self::trials(trials, trial), 0.05)
-        }
+    let nominal = match measure {
+        RateMeasure::Counts => 0.95,
+        RateMeasure::Slope => 0.05,
     };
-    let rate = share(&found?);
-    answer.put("rate", [rate], [nominal]);
+    let found = self::trials(trials, |k| {
+        let own = Simulated::new(context, suite, intraclass, k);
+        if let RateMeasure::Counts = measure {
+            return own.counts_hold(k);
+        }
+        let found = mixed(&own.attribute, &own.logs, &own.drawn)?;
+        Ok(found.p_value < 0.05)
+    })?;
+    answer.put("rate", [share(&found)], [nominal]);
     Ok(())
 }
 
@@ -83,11 +80,10 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
 /// same law above 1.
 pub fn coverage_of_fits(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context; suite: SuiteShape, intraclass: f64, trials: u64, }
-    let trial = |index: u64| {
+    let found = self::trials(trials, |index| {
         let suite = Simulated::new(context, suite, intraclass, index);
         suite.fit_holds(context.wrong, index)
-    };
-    let found = self::trials(trials, trial)?;
+    })?;
     for k in 0..5 {
         let held: Vec<bool> = found.iter().map(|held| held[k].1).collect();
         answer.put(found[0][k].0, [share(&held)], [0.95]);
@@ -100,7 +96,7 @@ struct Simulated {
     logs: Vec<f64>,
     /// By record, one value an earthquake.
     attribute: Vec<f64>,
-    /// What is drawn anew.
+    /// Units of resampling.
     drawn: Clusters,
 }
 
@@ -126,9 +122,9 @@ impl Simulated {
             DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
         };
         let logs = own.iter().enumerate().map(of).collect();
-        let records = 0..shape.records();
-        let attribute = records.map(|r| attribute[shape.cluster_of(r)]);
-        let attribute = attribute.collect();
+        let attribute = (0..shape.records())
+            .map(|record| attribute[shape.cluster_of(record)])
+            .collect();
         Self { logs, attribute, drawn: context.drawn(&shape) }
     }
 
@@ -140,18 +136,14 @@ impl Simulated {
     /// of the same records.
     fn counts_hold(&self, seed: u64) -> Result<bool> {
         let values = self.values();
-        let stripe = |&im: &f64| {
-            let of = move |(record, x): (usize, &f64)| RecordOutcome {
-                im,
-                record,
-                exceeded: *x <= im,
-            };
-            values.iter().enumerate().map(of)
-        };
-        let levels = [0.5, 0.75, 1.0, 1.35, 2.0];
         let draws = Draws { replicates: REPLICATES, seed };
-        let outcomes: Vec<RecordOutcome> =
-            levels.iter().flat_map(stripe).collect();
+        let mut outcomes = Vec::new();
+        for im in [0.5, 0.75, 1.0, 1.35, 2.0] {
+            for (record, x) in values.iter().enumerate() {
+                let exceeded = *x <= im;
+                outcomes.push(RecordOutcome { im, record, exceeded });
+            }
+        }
         let found = fit_outcomes(&outcomes, &self.drawn, 0.0, Some(draws))?;
         Ok(found.median.interval().is_some_and(|ends| ends.holds(1.0)))
     }
@@ -169,10 +161,10 @@ impl Simulated {
             clusters: Some(self.drawn.clone()),
             ..FitOptions::default()
         };
-        let none = || anyhow!("no bootstrap");
+        let none = "no bootstrap";
         let fitted = sample.fit(0.0, options.method)?.distribution;
-        let sampled = options.sampled(&sample)?.ok_or_else(none)?;
-        let student = self.drawn.student(0.95).ok_or_else(none)?;
+        let sampled = options.sampled(&sample)?.context(none)?;
+        let student = self.drawn.student(0.95).context(none)?;
         let holds = |of: Option<Estimate>, drawn: &[f64], truth: f64| {
             let ends = match (wrong, of) {
                 (Some(WrongModel::Percentiles), _) => percentiles(drawn, 0.95),
@@ -185,22 +177,19 @@ impl Simulated {
             };
             ends.is_some_and(|ends| ends.holds(truth))
         };
+        let drawn = |of: &dyn Fn(&TotalFragility) -> f64| {
+            let of = |law: &Option<_>| law.as_ref().map_or(f64::NAN, of);
+            sampled.fitted.iter().map(of).collect::<Vec<f64>>()
+        };
         let of_law = |of: fn(&Lognormal) -> f64, truth: f64| {
-            let laws = sampled.fitted.iter();
-            let drawn = laws.map(|law| {
-                law.as_ref().map_or(f64::NAN, |law| of(law.records()))
-            });
-            let drawn: Vec<f64> = drawn.collect();
+            let drawn = drawn(&|law| of(law.records()));
             let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
             let point = of(&fitted);
             let found = self.drawn.estimate(point, &drawn, how, range, 0.95);
             holds(found.map(|found| found.estimate), &drawn, truth)
         };
         let band = sampled.band(&fitted.into(), &[AT]).points[0].probability;
-        let probability = |law: &Option<TotalFragility>| {
-            law.as_ref().map_or(f64::NAN, |law| law.cdf(AT))
-        };
-        let drawn: Vec<f64> = sampled.fitted.iter().map(probability).collect();
+        let drawn = drawn(&|law| law.cdf(AT));
         let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?.cdf(AT);
         // Cornell's closed form.
         let cornell = 1e-4 * exp(0.5 * 2.5 * 2.5 * DISPERSION * DISPERSION);
@@ -221,7 +210,7 @@ impl Simulated {
                 sampled: Some(sampled),
             };
             let found = risk(&hazard, &[of], 50.0)?.fragilities.remove(0);
-            let own = found.sampling.ok_or_else(none)?;
+            let own = found.sampling.context(none)?;
             let drawn = own.drawn_annual_frequencies;
             Ok(holds(Some(own.annual_frequency), &drawn, truth))
         };
@@ -235,8 +224,8 @@ impl Simulated {
     }
 }
 
-/// Slopes with a random intercept, and what widens an interval of few
-/// earthquakes.
+/// Slopes with a random intercept, and the factors that widen an interval of
+/// few earthquakes.
 pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
     let clusters = |text: &'static str| {
         context.drawn(&Clusters::from_labels(text.split(' ')))
@@ -263,15 +252,12 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
         let sample = CensoredSample::try_new(&values, &[])?;
         let clusters = Some(clusters);
         let options = FitOptions { clusters, ..FitOptions::default() };
-        let fit = fit_sample(&sample, &options)?;
-        let none = || anyhow!("no design effect");
-        let needed = fit.needed.ok_or_else(none)?;
-        let quantities = [
-            ("share", share),
-            ("records", needed.for_median),
-            ("records", needed.for_dispersion),
-        ];
-        row.put(answer, 4, &quantities)?;
+        let needed = fit_sample(&sample, &options)?.needed;
+        let needed = needed.context("no design effect")?;
+        let (median, dispersion) = (needed.for_median, needed.for_dispersion);
+        let records = [("records", median), ("records", dispersion)];
+        row.put(answer, 4, &[("share", share)])?;
+        row.put(answer, 5, &records)?;
     }
     for row in VALUES.rows("interval")? {
         let own = clusters(row.text(2));

@@ -102,6 +102,12 @@ fn hold(interval: Option<Interval>, truth: f64) -> bool {
     interval.is_some_and(|interval| interval.holds(truth))
 }
 
+/// Paired ratios with this median, from normal scores.
+fn ratios(median: f64, scores: &[f64]) -> RecordRanks {
+    let values = scores.iter().map(|z| median * exp(SPREAD * z));
+    RecordRanks::new(&values.collect::<Vec<f64>>())
+}
+
 /// A field over blocks and levels, added to `scores` with a weight.
 fn add_field(stream: &mut Stream, weight: f64, scores: &mut [f64]) {
     let walk = |stream: &mut Stream| -> [f64; LEVELS] {
@@ -155,6 +161,26 @@ impl Trials {
         cells
     }
 
+    fn bootstrap(&self, trial: u64) -> Bootstrap {
+        let name = format!("coverage/{trial}");
+        Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES)
+    }
+
+    /// The interval of a statistic from its values over replicates.
+    fn interval(
+        &self,
+        point: f64,
+        values: &[f64],
+        (how, range): (Resampling, Range),
+    ) -> Option<Interval> {
+        use WrongModel::{Percentiles, TiedReplicates};
+        if matches!(self.wrong, Some(Percentiles | TiedReplicates)) {
+            return percentiles(values, LEVEL);
+        }
+        let found = self.drawn.estimate(point, values, how, range, LEVEL);
+        found.and_then(|found| found.estimate.interval())
+    }
+
     /// The interval of a function of multiplicities by a bootstrap.
     fn by_bootstrap(
         &self,
@@ -163,17 +189,11 @@ impl Trials {
         of: impl Fn(&[u32]) -> f64,
     ) -> Option<Interval> {
         let point = of(&vec![1; self.clusters.records()]);
-        let name = format!("coverage/{trial}");
-        let draws = Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES);
-        let values: Vec<f64> = (0..REPLICATES as u64)
-            .map(|index| of(&draws.multiplicities(index)))
-            .collect();
-        if self.wrong == Some(WrongModel::Percentiles) {
-            return percentiles(&values, LEVEL);
-        }
-        let how = Resampling::Bootstrap;
-        let found = self.drawn.estimate(point, &values, how, range, LEVEL);
-        found.and_then(|found| found.estimate.interval())
+        let draws = self.bootstrap(trial);
+        let replicates = 0..REPLICATES as u64;
+        let value = |index| of(&draws.multiplicities(index));
+        let values: Vec<f64> = replicates.map(value).collect();
+        self.interval(point, &values, (Resampling::Bootstrap, range))
     }
 
     fn holds(&self, trial: u64, measure: IntervalMeasure) -> Result<bool> {
@@ -183,10 +203,9 @@ impl Trials {
             IntervalMeasure::FewSurvivors => {
                 // Some of each large earthquake.
                 let step = scores[0].len() / SURVIVORS;
-                let values: Vec<f64> =
-                    scores[0].iter().copied().step_by(step).collect();
-                let values = &values[..SURVIVORS];
-                let sample = ExtendedSample::try_new(values)?;
+                let values = scores[0].iter().step_by(step).take(SURVIVORS);
+                let values: Vec<f64> = values.copied().collect();
+                let sample = ExtendedSample::try_new(&values)?;
                 let narrow = self.wrong == Some(WrongModel::OtherInterval);
                 let level = if narrow { 0.75 } else { LEVEL };
                 let found = median_interval(&sample, level);
@@ -194,15 +213,14 @@ impl Trials {
             }
             IntervalMeasure::Count => {
                 let limit = normal::quantile(PROBABILITY);
-                let held: Vec<bool> =
-                    scores[0].iter().map(|z| *z < limit).collect();
+                let held = scores[0].iter().map(|z| *z < limit);
+                let held: Vec<bool> = held.collect();
                 let found = Proportion::of_clusters(&held, &self.drawn);
                 let ends = found.and_then(|count| count.interval(LEVEL));
                 hold(ends.ok(), PROBABILITY)
             }
             _ => {
-                let values = scores[0].iter().map(|z| exp(SPREAD * z));
-                let cell = RecordRanks::new(&values.collect::<Vec<f64>>());
+                let cell = ratios(1.0, &scores[0]);
                 let of = |counts: &[u32]| cell.median(counts);
                 hold(self.by_bootstrap(trial, Range::NotNegative, of), 1.0)
             }
@@ -225,11 +243,9 @@ impl Trials {
             inside.count() as f64 / count as f64
         };
         let truths: Vec<f64> = (0..count).map(truth).collect();
-        let cells = scores.iter().zip(&truths).map(|(cell, truth)| {
-            let values = cell.iter().map(|z| truth * exp(SPREAD * z));
-            RecordRanks::new(&values.collect::<Vec<f64>>())
-        });
-        let cells: Vec<RecordRanks> = cells.collect();
+        let cells = truths.iter().zip(scores);
+        let cells: Vec<RecordRanks> =
+            cells.map(|(truth, cell)| ratios(*truth, cell)).collect();
         let of = |counts: &[u32]| {
             let medians = cells.iter().map(|cell| cell.median(counts));
             share(&medians.collect::<Vec<f64>>())
@@ -243,40 +259,33 @@ impl Trials {
     fn distance(&self, trial: u64) -> Result<(f64, Option<Interval>)> {
         let table = LillieforsTable::embedded();
         let scores = self.scores(trial).into_iter().step_by(APART);
-        let logs: Vec<Vec<f64>> = scores
-            .map(|cell| cell.into_iter().map(|z| log(1.0 + exp(z))).collect())
-            .collect();
+        let of = |cell: Vec<f64>| {
+            cell.into_iter().map(|z| log(1.0 + exp(z))).collect()
+        };
+        let logs: Vec<Vec<f64>> = scores.map(of).collect();
         let of = |places: &[usize]| -> Result<f64> {
-            let drawn: Vec<Vec<f64>> = logs
-                .iter()
-                .map(|level| places.iter().map(|r| level[*r]).collect())
-                .collect();
+            let drawn =
+                |level: &Vec<f64>| places.iter().map(|r| level[*r]).collect();
+            let drawn: Vec<Vec<f64>> = logs.iter().map(drawn).collect();
             let d = distances(&drawn);
             let mean = d.iter().fold(0.0, |sum, d| sum + d) / d.len() as f64;
             Ok(mean - table.mean(places.len())?)
         };
         let n = self.clusters.records();
         let point = of(&(0..n).collect::<Vec<usize>>())?;
-        if self.wrong == Some(WrongModel::TiedReplicates) {
-            let name = format!("coverage/{trial}");
-            let draws =
-                Bootstrap::of_clusters(&name, 0, &self.drawn, REPLICATES);
-            let values = (0..REPLICATES as u64)
-                .map(|index| of(&draws.draw(index)))
-                .collect::<Result<Vec<f64>>>()?;
-            return Ok((point, percentiles(&values, LEVEL)));
-        }
-        let values = self
-            .drawn
-            .without_two()
-            .iter()
-            .map(|counts| {
-                let held = (0..n).filter(|r| counts[*r] > 0);
-                of(&held.collect::<Vec<usize>>())
-            })
-            .collect::<Result<Vec<f64>>>()?;
-        let (how, range) = (Resampling::Without(2), Range::Real);
-        let found = self.drawn.estimate(point, &values, how, range, LEVEL);
-        Ok((point, found.and_then(|found| found.estimate.interval())))
+        let places: Vec<Vec<usize>> =
+            if self.wrong == Some(WrongModel::TiedReplicates) {
+                let draws = self.bootstrap(trial);
+                (0..REPLICATES as u64).map(|k| draws.draw(k)).collect()
+            } else {
+                let held = |counts: &Vec<u32>| {
+                    (0..n).filter(|r| counts[*r] > 0).collect()
+                };
+                self.drawn.without_two().iter().map(held).collect()
+            };
+        let values = places.iter().map(|places| of(places));
+        let values = values.collect::<Result<Vec<f64>>>()?;
+        let how = (Resampling::Without(2), Range::Real);
+        Ok((point, self.interval(point, &values, how)))
     }
 }

@@ -9,18 +9,16 @@ use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 
 use crate::arithmetic::{RoundedConstants, Single, wide};
-use crate::scene::{CaseScene, Engine, EngineError, Forcing, Trace};
+use crate::scene::{
+    CaseScene, Engine, EngineError, EngineResult, Forcing, Trace,
+};
 
 /// The code under test.
 pub struct Core;
 
 impl Engine for Core {
-    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
-        let observe = Observe {
-            events: true,
-            until_s: scene.until_s,
-            ..Observe::default()
-        };
+    fn respond(&self, scene: &CaseScene) -> EngineResult<Trace> {
+        let observe = Observe { events: true, ..Observe::default() };
         let response = respond(scene, &observe)?;
         Ok(Trace {
             uplift_s: response.uplift_time_s,
@@ -43,10 +41,7 @@ impl Engine for Core {
 
 /// Sign of the rotation after the first uplift. An overturned block shows
 /// it by its side and its impacts; any other by a history of its first hop.
-fn first_side(
-    scene: &CaseScene,
-    response: &Response,
-) -> Result<f64, EngineError> {
+fn first_side(scene: &CaseScene, response: &Response) -> EngineResult<f64> {
     if let Outcome::Overturned { side, .. } = response.outcome {
         let even = response.impacts.len().is_multiple_of(2);
         return Ok(if even { side.sign() } else { -side.sign() });
@@ -69,16 +64,18 @@ fn first_side(
     Ok(moved.map_or(0.0, |point| point.rotation_rad.signum()))
 }
 
-/// Runs the code under test in double precision.
+/// Runs the code under test in double precision, until the end of the
+/// observation or that of the scene.
 ///
 /// # Errors
 /// [`EngineError`] with the message of the core.
 pub fn respond(
     scene: &CaseScene,
     observe: &Observe,
-) -> Result<Response, EngineError> {
+) -> EngineResult<Response> {
+    let until_s = observe.until_s.or(scene.until_s);
     on_core(scene, Quotient::Rounded, |scene| {
-        integrator::respond(scene, observe)
+        integrator::respond(scene, &Observe { until_s, ..*observe })
     })
 }
 
@@ -100,7 +97,7 @@ pub fn on_core<R>(
     scene: &CaseScene,
     quotient: Quotient,
     work: impl FnOnce(&Scene<'_>) -> Result<R, SceneError>,
-) -> Result<R, EngineError> {
+) -> EngineResult<R> {
     fn refused(error: impl std::fmt::Display) -> EngineError {
         EngineError::Refused(error.to_string())
     }
@@ -207,7 +204,7 @@ impl WideTrace {
         scene: &CaseScene,
         observe: &Observe,
         quotient: Quotient,
-    ) -> Result<Self, EngineError> {
+    ) -> EngineResult<Self> {
         on_core(scene, quotient, |scene| {
             Ok(Self::of::<N>(&integrator::respond_precise(scene, observe)?))
         })
@@ -220,7 +217,7 @@ impl WideTrace {
     pub fn run(
         scene: &CaseScene,
         arithmetic: Precision,
-    ) -> Result<Self, EngineError> {
+    ) -> EngineResult<Self> {
         let observe = Observe {
             events: true,
             accuracy: true,

@@ -8,7 +8,8 @@
 use crate::cases::WrongModel;
 
 use crate::scene::{
-    self, CaseScene, Engine, EngineError, Forcing, Impact, Model, Trace,
+    self, CaseScene, Engine, EngineError, EngineResult, Forcing, Impact,
+    Model, Trace,
 };
 
 /// Largest step in units of 1/p of the right rules.
@@ -78,7 +79,7 @@ struct NaiveRun<'a> {
 }
 
 impl Engine for Naive {
-    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
+    fn respond(&self, scene: &CaseScene) -> EngineResult<Trace> {
         let mut run = NaiveRun {
             rules: self.0,
             scene,
@@ -135,7 +136,7 @@ impl NaiveRun<'_> {
         other.threshold_m_s2()
     }
 
-    fn go(&mut self) -> Result<(), EngineError> {
+    fn go(&mut self) -> EngineResult<()> {
         let threshold = self.threshold();
         let mut hop = None;
         if let Forcing::Free { rotation_rad } = self.scene.forcing {
@@ -285,7 +286,7 @@ impl NaiveRun<'_> {
         &mut self,
         mut hop: NaiveHop,
         threshold: f64,
-    ) -> Result<Option<NaiveHop>, EngineError> {
+    ) -> EngineResult<Option<NaiveHop>> {
         let end = self.piece_end();
         let longest = self.longest_step();
         let limit = self.scene.limit_rad();

@@ -59,7 +59,7 @@ pub struct CaseScene {
     pub until_s: Option<f64>,
 }
 
-/// What an engine saw.
+/// Result of an engine on a scene.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Trace {
     /// First start from rest, s.
@@ -80,10 +80,10 @@ pub struct Trace {
     pub rest_s: Option<f64>,
 }
 
-/// Why an engine gave no trace.
+/// A run that failed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum EngineError {
-    /// The scene is refused by the code under test.
+    /// The code under test refuses the scene.
     #[error("scene refused: {0}")]
     Refused(String),
     /// The run takes more work than is allowed.
@@ -91,13 +91,16 @@ pub enum EngineError {
     Work(String),
 }
 
-/// Something that answers scenes.
+/// Result of a run by an engine.
+pub type EngineResult<T> = Result<T, EngineError>;
+
+/// An integrator that runs scenes.
 pub trait Engine: Sync {
     /// Runs a scene.
     ///
     /// # Errors
     /// [`EngineError`] when no trace can be given.
-    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError>;
+    fn respond(&self, scene: &CaseScene) -> EngineResult<Trace>;
 }
 
 impl CaseScene {

@@ -23,7 +23,7 @@ pub use summary::{Judgement, SHARES, TrialSummary};
 use rayon::prelude::*;
 use rocking_statistics::streams::Streams;
 
-use crate::scene::EngineError;
+use crate::scene::{EngineError, EngineResult};
 pub(crate) use compare::{WORK, truth};
 pub(crate) use draw::Draw;
 use rocking::names::named;
@@ -64,10 +64,7 @@ named! {
 /// assert!(trial.name.starts_with("ordinary:0 "));
 /// # Ok::<(), rocking_proof::scene::EngineError>(())
 /// ```
-pub fn trial(
-    stratum: Stratum,
-    index: u64,
-) -> Result<Option<Trial>, EngineError> {
+pub fn trial(stratum: Stratum, index: u64) -> EngineResult<Option<Trial>> {
     let name = format!("trials {}", stratum.name());
     let mut draw = Draw(Streams::new(&name, 0).stream(index));
     let found = match stratum {
@@ -93,7 +90,7 @@ pub fn trial(
 pub fn findings(
     stratum: Stratum,
     indices: &[u64],
-) -> Result<Vec<Finding>, EngineError> {
+) -> EngineResult<Vec<Finding>> {
     let found = indices
         .par_iter()
         .map(|index| {

@@ -83,8 +83,7 @@ impl Counts {
         reading: CertificateReading,
     ) -> Result<()> {
         let until_s = scene.until_s;
-        let observe =
-            Observe { accuracy: true, until_s, ..Observe::default() };
+        let observe = Observe { accuracy: true, ..Observe::default() };
         let response = respond(scene, &observe)?;
         let seen = DoubleRun::of(&response);
         let clear = reading.is_clear(&seen);

@@ -13,8 +13,7 @@ const ARM: f64 = 0.75;
 
 /// The forces that the core reports, for the scene as the wrong model has it.
 fn forces(context: &Context, scene: &CaseScene) -> Result<Forces> {
-    let observe =
-        Observe { forces: true, until_s: scene.until_s, ..Observe::default() };
+    let observe = Observe { forces: true, ..Observe::default() };
     let run = engine::respond(&context.altered(scene), &observe)?;
     run.forces.context("no forces")
 }
@@ -133,7 +132,6 @@ fn differences(
     let observe = Observe {
         events: true,
         history_interval_s: Some(h),
-        until_s: scene.until_s,
         ..Observe::default()
     };
     let run = engine::respond(scene, &observe)?;

@@ -42,7 +42,6 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
         let observe = Observe {
             events: true,
             history_interval_s: Some(0.013 / p),
-            until_s: scene.until_s,
             ..Observe::default()
         };
         let run = engine::respond(&scene, &observe)?;

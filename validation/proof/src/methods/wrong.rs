@@ -3,7 +3,7 @@
 use crate::cases::WrongModel;
 use crate::engine::Core;
 use crate::naive::{Events, Naive, Rules};
-use crate::scene::{CaseScene, Engine, EngineError, Trace, other};
+use crate::scene::{CaseScene, Engine, EngineResult, Trace, other};
 
 impl WrongModel {
     /// Rules of the naive integrator, where it carries out the mistake.
@@ -68,7 +68,7 @@ impl WrongModel {
 
 /// The engine that makes the mistake, where the method itself does not.
 impl Engine for WrongModel {
-    fn respond(&self, scene: &CaseScene) -> Result<Trace, EngineError> {
+    fn respond(&self, scene: &CaseScene) -> EngineResult<Trace> {
         match self.rules() {
             Some(rules) => Naive(rules).respond(scene),
             None => Core.respond(&self.altered(scene)),

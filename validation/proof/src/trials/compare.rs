@@ -11,7 +11,7 @@ use rocking::number::{Number as _, Real};
 use crate::arithmetic::wide;
 use crate::cases::WrongModel;
 use crate::engine::{Quotient, on_core, respond};
-use crate::scene::{CaseScene, EngineError};
+use crate::scene::{CaseScene, EngineResult};
 
 /// A scene with its address.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,15 +186,14 @@ fn by<N: Real>(
 /// assert!(matches!(judgement, Judgement::Right | Judgement::Within(_)));
 /// # Ok::<(), rocking_proof::scene::EngineError>(())
 /// ```
-pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
-    let until_s = trial.scene.until_s;
-    let observe = Observe { accuracy: true, until_s, ..Observe::default() };
+pub fn compare(trial: &Trial) -> EngineResult<Finding> {
+    let observe = Observe { accuracy: true, ..Observe::default() };
     let response = respond(&trial.scene, &observe)?;
     Ok(Finding {
         name: trial.name.clone(),
         seen: DoubleRun::of(&response),
         truth: on_core(&trial.scene, Quotient::Rounded, |scene| {
-            truth(scene, until_s)
+            truth(scene, trial.scene.until_s)
         })?,
     })
 }

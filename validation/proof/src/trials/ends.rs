@@ -6,7 +6,9 @@ use rocking::integrator::{Observe, Outcome};
 
 use super::draw::Draw;
 use super::grazing::few;
-use super::random::{self, NamedScene, ordinary_record, under_pulse};
+use super::random::{
+    self, FoundScene, NamedScene, ordinary_record, under_pulse,
+};
 use super::search::moved;
 use crate::engine::respond;
 use crate::scene::{EngineError, Forcing};
@@ -27,10 +29,7 @@ const PULSES: usize = PulseName::ALL.len();
 
 /// A scene whose observation ends about an overturning, about the first
 /// uplift, or anywhere; one kind after the other.
-pub(super) fn ending(
-    draw: &mut Draw,
-    index: u64,
-) -> Result<Option<NamedScene>, EngineError> {
+pub(super) fn ending(draw: &mut Draw, index: u64) -> FoundScene {
     for _ in 0..ATTEMPTS {
         let (_, mut scene) = match draw.below(3) {
             0 => ordinary_record(draw, LONGEST),

@@ -8,10 +8,10 @@
 use rocking::integrator::Observe;
 
 use super::draw::Draw;
-use super::random::{NamedScene, ordinary_record};
+use super::random::{FoundScene, ordinary_record};
 use super::search::{geometric, near, sides};
 use crate::engine::respond;
-use crate::scene::{CaseScene, EngineError, Forcing};
+use crate::scene::{CaseScene, EngineResult, Forcing};
 
 /// Most blocks drawn to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -21,9 +21,7 @@ const NEAR: usize = 1 << 26;
 const COUNTS: f64 = 1e-6;
 
 /// A graze of the first hop, then shaking.
-pub(super) fn first_hop(
-    draw: &mut Draw,
-) -> Result<Option<NamedScene>, EngineError> {
+pub(super) fn first_hop(draw: &mut Draw) -> FoundScene {
     for _ in 0..ATTEMPTS {
         if let Some(scene) = grazing(draw)? {
             return Ok(Some(("first hop".to_owned(), scene)));
@@ -35,7 +33,7 @@ pub(super) fn first_hop(
 /// A lobe that lifts the block, one that pulls it back, and one that catches
 /// it, each held constant, then levels held for a few samples each, under
 /// which a block rocks for long; the amplitude of all of it decides.
-fn grazing(draw: &mut Draw) -> Result<Option<CaseScene>, EngineError> {
+fn grazing(draw: &mut Draw) -> EngineResult<Option<CaseScene>> {
     let (_, plain) = ordinary_record(draw, 100);
     let in_p = draw.log(0.01, 0.05);
     let dt_s = in_p / plain.frequency_rad_s;

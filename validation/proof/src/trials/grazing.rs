@@ -7,11 +7,13 @@
 use rocking::integrator::{Observe, Response};
 
 use super::draw::Draw;
-use super::random::{NamedScene, PULSES, ordinary_record, under_pulse};
+use super::random::{
+    FoundScene, NamedScene, PULSES, ordinary_record, under_pulse,
+};
 use super::records::{filtered, noise, normalised};
 use super::search::{geometric, linear, moved, near, sides};
 use crate::engine::respond;
-use crate::scene::{CaseScene, EngineError, Forcing};
+use crate::scene::{CaseScene, EngineResult, Forcing};
 
 /// Most scenes drawn to find one that grazes.
 const ATTEMPTS: usize = 40;
@@ -27,10 +29,7 @@ const COUNTS: f64 = 1e-11;
 const LONGEST: usize = 400;
 
 /// The scene of an index: one kind of decision after the other.
-pub(super) fn grazing(
-    draw: &mut Draw,
-    index: u64,
-) -> Result<Option<NamedScene>, EngineError> {
+pub(super) fn grazing(draw: &mut Draw, index: u64) -> FoundScene {
     for _ in 0..ATTEMPTS {
         let found = match index % KINDS {
             0 => contact(draw)?,
@@ -47,7 +46,7 @@ pub(super) fn grazing(
 }
 
 /// A contact made or missed during the first part of a record.
-fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
+fn contact(draw: &mut Draw) -> FoundScene {
     let (_, scene) = ordinary_record(draw, LONGEST);
     let Forcing::Samples { dt_s, acceleration_m_s2: first } = &scene.forcing
     else {
@@ -73,7 +72,7 @@ fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
     let Some(sides) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
-    let peak = |x: f64| -> Result<f64, EngineError> {
+    let peak = |x: f64| -> EngineResult<f64> {
         Ok(respond(&(sides.0)(x), &Observe::default())?.peak_ratio)
     };
     let [a, b] = sides.1;
@@ -82,10 +81,7 @@ fn contact(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
 }
 
 /// An amplitude between two outcomes.
-fn fate(
-    draw: &mut Draw,
-    which: usize,
-) -> Result<Option<NamedScene>, EngineError> {
+fn fate(draw: &mut Draw, which: usize) -> FoundScene {
     // A released block stays up: a record takes the place of the release.
     let (kind, mut scene) = match which % PULSES {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
@@ -107,7 +103,7 @@ fn fate(
 }
 
 /// A peak or a plateau at the threshold of uplift, then a shock.
-fn uplift(draw: &mut Draw) -> Result<NamedScene, EngineError> {
+fn uplift(draw: &mut Draw) -> EngineResult<NamedScene> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.1);
     let dt_s = in_p / scene.frequency_rad_s;
@@ -130,7 +126,7 @@ fn uplift(draw: &mut Draw) -> Result<NamedScene, EngineError> {
 }
 
 /// A rest that just comes before the next uplift, or just does not.
-fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
+fn rest(draw: &mut Draw) -> FoundScene {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.05);
     let dt_s = in_p / scene.frequency_rad_s;
@@ -170,7 +166,7 @@ fn rest(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
 
 /// A clear shock that makes the highest peak, then long shaking at the
 /// amplitude between two fates.
-fn late(draw: &mut Draw) -> Result<Option<NamedScene>, EngineError> {
+fn late(draw: &mut Draw) -> FoundScene {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let p = scene.frequency_rad_s;
     let in_p = draw.log(0.02, 0.1);
@@ -200,7 +196,7 @@ fn shock(
     scene: &CaseScene,
     before: &[f64],
     dt_s: f64,
-) -> Result<Vec<f64>, EngineError> {
+) -> EngineResult<Vec<f64>> {
     let n = draw.count(50, LONGEST);
     let peak = draw.log(1.5, 5.0) * scene.threshold_m_s2();
     let mut samples = normalised(filtered(draw, n, dt_s));
@@ -225,15 +221,12 @@ fn half_sine(length: usize, size: f64) -> Vec<f64> {
     (0..=length).map(|k| size * libm::sin(half * k as f64)).collect()
 }
 
-fn run_until(
-    scene: &CaseScene,
-    until_s: f64,
-) -> Result<Response, EngineError> {
+fn run_until(scene: &CaseScene, until_s: f64) -> EngineResult<Response> {
     let until_s = Some(until_s);
     respond(scene, &Observe { until_s, ..Observe::default() })
 }
 
-fn overturns(scene: &CaseScene) -> Result<bool, EngineError> {
+fn overturns(scene: &CaseScene) -> EngineResult<bool> {
     Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
 }
 

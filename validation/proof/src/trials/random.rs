@@ -7,7 +7,7 @@ use rocking::excitation::{PulseName, PulseParameter as P};
 
 use super::draw::Draw;
 use super::records::RecordKind;
-use crate::scene::{CaseScene, Forcing, Model, Overturning};
+use crate::scene::{CaseScene, EngineResult, Forcing, Model, Overturning};
 
 /// Samples of a record, at most, but for the few long ones.
 const COMMON: usize = 2000;
@@ -16,8 +16,11 @@ const LONG: usize = 100_000;
 /// Share of long records.
 const SHARE_OF_LONG: f64 = 1.0 / 256.0;
 
-/// What a kind of excitation is called, and a scene.
+/// A scene with the name of its kind.
 pub(super) type NamedScene = (String, CaseScene);
+
+/// A scene with the name of its kind; none if the search found none.
+pub(super) type FoundScene = EngineResult<Option<NamedScene>>;
 
 /// Ranges of a stratum.
 struct Ranges {

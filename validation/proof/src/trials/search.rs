@@ -1,7 +1,7 @@
 //! Search for the two neighbouring doubles between which a decision turns.
 
 use super::draw::Draw;
-use crate::scene::{CaseScene, EngineError, Forcing};
+use crate::scene::{CaseScene, EngineResult, Forcing};
 
 /// Parts into which a range is divided to find a change.
 const PARTS: usize = 24;
@@ -33,11 +33,11 @@ pub(super) fn sides<'a, V>(
     draw: &mut Draw,
     (range, first): (&[f64], usize),
     at: impl Fn(f64) -> CaseScene + 'a,
-    see: impl Fn(&CaseScene) -> Result<V, EngineError>,
+    see: impl Fn(&CaseScene) -> EngineResult<V>,
     turns: impl Fn(&V, &V) -> bool,
-) -> Result<Option<Sides<'a>>, EngineError> {
+) -> EngineResult<Option<Sides<'a>>> {
     let seen = range.iter().map(|x| see(&at(*x)));
-    let seen = seen.collect::<Result<Vec<_>, EngineError>>()?;
+    let seen = seen.collect::<EngineResult<Vec<_>>>()?;
     let places: Vec<usize> =
         (1..range.len()).filter(|k| turns(&seen[k - 1], &seen[*k])).collect();
     if places.is_empty() {
@@ -61,9 +61,9 @@ pub(super) fn sides<'a, V>(
 fn bisected<V>(
     [mut low, mut high]: [f64; 2],
     at: &dyn Fn(f64) -> CaseScene,
-    see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
+    see: &impl Fn(&CaseScene) -> EngineResult<V>,
     turns: &impl Fn(&V, &V) -> bool,
-) -> Result<Option<[f64; 2]>, EngineError> {
+) -> EngineResult<Option<[f64; 2]>> {
     let (mut at_low, mut at_high) = (see(&at(low))?, see(&at(high))?);
     loop {
         let middle = f64::from_bits(low.to_bits().midpoint(high.to_bits()));
@@ -87,9 +87,9 @@ fn finer<'a, V>(
     draw: &mut Draw,
     scene: &CaseScene,
     first: usize,
-    see: &impl Fn(&CaseScene) -> Result<V, EngineError>,
+    see: &impl Fn(&CaseScene) -> EngineResult<V>,
     turns: &impl Fn(&V, &V) -> bool,
-) -> Result<Option<Sides<'a>>, EngineError> {
+) -> EngineResult<Option<Sides<'a>>> {
     let Forcing::Samples { acceleration_m_s2: samples, .. } = &scene.forcing
     else {
         return Ok(None);

@@ -1,21 +1,21 @@
-//! A plain rocking integrator with switchable rules: source of wrong models.
+//! A plain rocking integrator with switchable rules, used for wrong models.
 //!
-//! Fixed-step fourth-order Runge-Kutta in |theta|, events located by
-//! bisection on the step itself. With [`Rules::default`] every rule is right
-//! and the result is good to about 1e-9; each other choice is a mistake that
-//! has been made in practice. It shares no code with the core.
+//! Fixed-step fourth-order Runge-Kutta in |theta|; events are located by
+//! bisection on the step itself. With [`Rules::default`] every rule is correct
+//! and the error is about 1e-9; every other choice is a mistake that has been
+//! made in practice. It shares no code with the core.
 
 use crate::cases::WrongModel;
 
 use crate::scene::{
-    self, CaseScene, Engine, EngineError, EngineResult, Forcing, Impact,
-    Model, Trace,
+    CaseScene, Engine, EngineError, EngineResult, Forcing, Impact, Model,
+    Trace, by_equation, other,
 };
 
 /// Largest step in units of 1/p of the right rules.
 pub const STEP_P: f64 = 0.005;
 
-/// How impacts and overturning are noticed.
+/// Detection of impacts and overturning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Events {
     /// Located inside the step, dips inside a step included.
@@ -32,11 +32,11 @@ pub enum Events {
 /// The rules of a naive run; the default is right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
-    /// How events are noticed.
+    /// Detection of events.
     pub events: Events,
-    /// The mistake made beside that, where one is.
+    /// Another mistake, if any.
     pub wrong: Option<WrongModel>,
-    /// Largest step in units of 1/p; ten times that where impacts are not
+    /// Largest step in units of 1/p; ten times that if impacts are not
     /// located.
     pub step_p: f64,
 }
@@ -54,9 +54,10 @@ pub struct Naive(pub Rules);
 /// Speed below which the chatter's tail takes over, over p alpha.
 const CHATTER: f64 = 1e-6;
 
-/// Speed over p alpha below which crude rules take a block to rest, whatever
-/// the ground does.
+/// Speed over p alpha below which the crude rules take a block to rest under
+/// any ground acceleration.
 const CRUDE: f64 = 0.1;
+
 /// Steps after which a run is given up.
 const MOST_STEPS: usize = 1_000_000;
 
@@ -95,7 +96,7 @@ impl Engine for Naive {
 }
 
 impl NaiveRun<'_> {
-    /// Whether this is the mistake that is made.
+    /// True for the mistake of this run.
     fn makes(&self, wrong: WrongModel) -> bool {
         self.rules.wrong == Some(wrong)
     }
@@ -104,10 +105,8 @@ impl NaiveRun<'_> {
         if self.piece + 1 >= self.pieces_s.len() {
             return 0.0;
         }
-        let t = match self.makes(WrongModel::ZeroOrderHold) {
-            true => self.pieces_s[self.piece],
-            false => t,
-        };
+        let held = self.makes(WrongModel::ZeroOrderHold);
+        let t = if held { self.pieces_s[self.piece] } else { t };
         self.scene.forcing.at(self.piece, t)
     }
 
@@ -123,17 +122,16 @@ impl NaiveRun<'_> {
     }
 
     fn piece_end(&self) -> f64 {
-        let end = self.pieces_s.get(self.piece + 1).copied();
-        let until = self.until();
-        end.unwrap_or(f64::INFINITY).min(until)
+        let end = self.pieces_s.get(self.piece + 1);
+        end.map_or(f64::INFINITY, |end| *end).min(self.until())
     }
 
     fn threshold(&self) -> f64 {
-        let mut other = self.scene.clone();
+        let mut scene = self.scene.clone();
         if self.makes(WrongModel::OtherThreshold) {
-            other.model = scene::other(other.model);
+            scene.model = other(scene.model);
         }
-        other.threshold_m_s2()
+        scene.threshold_m_s2()
     }
 
     fn go(&mut self) -> EngineResult<()> {
@@ -198,13 +196,11 @@ impl NaiveRun<'_> {
         let alpha = self.scene.slenderness_rad;
         let p2 = self.scene.frequency_rad_s * self.scene.frequency_rad_s;
         let pull = side * self.ground(t) / self.scene.gravity_m_s2;
-        match self.scene.model {
-            Model::Nonlinear => {
-                let x = alpha - z;
-                -p2 * (libm::sin(x) + pull * libm::cos(x))
-            }
-            Model::Linearized => p2 * (z - alpha - pull),
+        if self.scene.model == Model::Linearized {
+            return p2 * (z - alpha - pull);
         }
+        let x = alpha - z;
+        -p2 * (libm::sin(x) + pull * libm::cos(x))
     }
 
     /// One Runge-Kutta step of length `h`.
@@ -412,12 +408,9 @@ impl NaiveRun<'_> {
     /// speed `w`, under a ground acceleration `pull` times the threshold.
     fn tail(&self, w: f64, side: f64, pull: f64) -> f64 {
         let scene = self.scene;
-        let lever = match scene.model {
-            Model::Nonlinear => libm::sin(scene.slenderness_rad),
-            Model::Linearized => scene.slenderness_rad,
-        };
-        let p = scene.frequency_rad_s;
-        let eta = scene.restitution;
+        let alpha = scene.slenderness_rad;
+        let lever = by_equation(scene.model, libm::sin(alpha), alpha);
+        let (p, eta) = (scene.frequency_rad_s, scene.restitution);
         2.0 * w / (p * p * lever)
             * (1.0 / (1.0 + side * pull) + eta / (1.0 - side * pull))
             / (1.0 - eta * eta)

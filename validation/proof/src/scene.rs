@@ -1,11 +1,11 @@
-//! What a declared case puts before an engine.
+//! The scene of a reference case, and the result of an engine on it.
 //!
-//! The equation, the criterion and the kind of a pulse are the core's types,
-//! which are data alone. `pulse` computes the acceleration and the end of a
-//! pulse anew.
+//! The equation, the criterion and the kind of a pulse are types of the core
+//! that only hold data. `pulse` computes the acceleration and the end of a
+//! pulse independently.
 //!
-//! Engines (the core behind its public interface, the naive integrator) all
-//! read the same [`CaseScene`] and answer with the same [`Trace`].
+//! The engines (the core behind its public interface, the naive integrator)
+//! all take a [`CaseScene`] and return a [`Trace`].
 
 use std::convert::Infallible;
 use std::f64::consts::PI;
@@ -55,7 +55,7 @@ pub struct CaseScene {
     pub overturning: Overturning,
     /// Ground acceleration.
     pub forcing: Forcing,
-    /// Where the run stops at the latest, s; none: at rest or overturning.
+    /// End of the observation, s; none: the run ends at rest or overturning.
     pub until_s: Option<f64>,
 }
 
@@ -70,13 +70,13 @@ pub struct Trace {
     pub first_side: f64,
     /// Impacts in order.
     pub impacts: Vec<Impact>,
-    /// Largest |theta|/alpha; infinite where the criterion was met.
+    /// Largest |theta|/alpha; infinite if the criterion was met.
     pub peak_ratio: f64,
-    /// When, s; none where the block did not move or overturned.
+    /// Time of the peak, s; none if the block did not move or overturned.
     pub peak_time_s: Option<f64>,
-    /// When the criterion was met, s.
+    /// Time at which the criterion was met, s.
     pub overturned_s: Option<f64>,
-    /// When rocking died out for good, s.
+    /// Time at which rocking died out for good, s.
     pub rest_s: Option<f64>,
 }
 
@@ -150,8 +150,9 @@ impl CaseScene {
         Self { forcing: forcing(self.threshold_m_s2()), ..self }
     }
 
-    /// The scene under samples at an interval (s), scaled to a peak of so
-    /// many uplift thresholds.
+    /// The scene under samples at an interval (s), scaled to a peak in uplift
+    /// thresholds.
+    #[must_use]
     pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
         self.under(|threshold| {
             let mut forcing = Forcing::samples(dt_s, samples);
@@ -172,11 +173,8 @@ impl CaseScene {
 
     /// Uplift threshold in m/s2: g tan(alpha) in Eq. 1, g alpha in Eq. 2.
     pub fn threshold_m_s2(&self) -> f64 {
-        let group = match self.model {
-            Model::Nonlinear => libm::tan(self.slenderness_rad),
-            Model::Linearized => self.slenderness_rad,
-        };
-        self.gravity_m_s2 * group
+        let alpha = self.slenderness_rad;
+        self.gravity_m_s2 * by_equation(self.model, libm::tan(alpha), alpha)
     }
 
     /// Rotation that ends the run, rad.
@@ -188,12 +186,14 @@ impl CaseScene {
     }
 }
 
+/// The first value in Eq. 1, the second in Eq. 2.
+pub fn by_equation<T>(model: Model, nonlinear: T, linear: T) -> T {
+    if model == Model::Nonlinear { nonlinear } else { linear }
+}
+
 /// The other equation of motion.
 pub fn other(model: Model) -> Model {
-    match model {
-        Model::Nonlinear => Model::Linearized,
-        Model::Linearized => Model::Nonlinear,
-    }
+    by_equation(model, Model::Linearized, Model::Nonlinear)
 }
 
 /// The pulse of this name with an amplitude (m/s2 or m/s) and a duration or
@@ -232,7 +232,7 @@ impl Forcing {
         Self::Pulse(self::pulse(name, amplitude, scale))
     }
 
-    /// The samples; none where the motion is no record.
+    /// The samples; none if the motion is no record.
     pub fn samples_mut(&mut self) -> Option<&mut Vec<f64>> {
         match self {
             Self::Samples { acceleration_m_s2, .. } => Some(acceleration_m_s2),
@@ -246,7 +246,7 @@ impl Forcing {
         all.fold(0.0, |peak, a| peak.max(a.abs()))
     }
 
-    /// Multiplies the motion; a release changes sides alone.
+    /// Multiplies the motion; a release only changes sides.
     pub fn scale(&mut self, factor: f64) {
         let factor = match self {
             Self::Free { .. } => factor.signum(),
@@ -255,7 +255,7 @@ impl Forcing {
         self.amplitudes_mut().iter_mut().for_each(|a| *a *= factor);
     }
 
-    /// Numbers in proportion to which the motion is: the rotation, the
+    /// The numbers to which the motion is proportional: the rotation, the
     /// amplitude of a pulse, or the samples.
     pub fn amplitudes_mut(&mut self) -> &mut [f64] {
         match self {

@@ -10,7 +10,7 @@ use super::fates;
 use crate::cases::{Case, load_all};
 use crate::engine::{Precision, WideTrace};
 use crate::references;
-use crate::scene::{CaseScene, Model, Overturning};
+use crate::scene::{CaseScene, Overturning, by_equation};
 
 /// Arithmetics in the order of the columns, and the digits of each.
 const PRECISIONS: [(Precision, f64); 3] = [
@@ -39,22 +39,16 @@ pub fn digits() -> Result<Vec<String>> {
 
 fn row(case: &Case) -> Result<Option<String>> {
     let (scene, truth) = match case.method.as_str() {
-        "trajectory" => {
-            let (scene, truth) = reference(case)?;
-            (scene, Some(truth))
-        }
+        "trajectory" => reference(case)?,
         "response" | "double-against-double-double" => {
             (fates::scene_of(case)?, None)
         }
         _ => return Ok(None),
     };
-    let mut runs = Vec::new();
-    for (arithmetic, _) in PRECISIONS {
-        runs.push(WideTrace::run(&scene, arithmetic)?);
-    }
+    let runs = PRECISIONS.map(|(by, _)| WideTrace::run(&scene, by));
+    let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let has_reference = truth.is_some();
-    let Some(own) = runs.last().cloned() else { return Ok(None) };
-    let truth = truth.unwrap_or(own);
+    let truth = truth.unwrap_or_else(|| runs[2].clone());
     if truth.uplift_s.is_none() {
         return Ok(None);
     }
@@ -65,17 +59,14 @@ fn row(case: &Case) -> Result<Option<String>> {
             reached[3 + k] = impact_reach(run, &truth, most);
         }
     }
-    let equation = match scene.model {
-        Model::Nonlinear => 1,
-        Model::Linearized => 2,
-    };
+    let equation = by_equation(scene.model, 1, 2);
     let truth = if has_reference { "36 digits" } else { "double-double" };
     let reached = reached.join(",");
     Ok(Some(format!("{},{equation},{truth},{reached}\n", case.id)))
 }
 
 /// Scene and truth of a trajectory, under the criterion that it is about.
-fn reference(case: &Case) -> Result<(CaseScene, WideTrace)> {
+fn reference(case: &Case) -> Result<(CaseScene, Option<WideTrace>)> {
     let entry = case.input.get("entry").and_then(toml::Value::as_str);
     let entry = references::trajectory(entry.unwrap_or_default())?;
     let tangency = case.id.contains("-flip-");
@@ -96,17 +87,17 @@ fn reference(case: &Case) -> Result<(CaseScene, WideTrace)> {
         error_estimate: 0.0,
         resolved: true,
     };
-    Ok((scene, truth))
+    Ok((scene, Some(truth)))
 }
 
 /// Digits of the end, where the fate is right.
 fn end_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
-    let digits = match (run.overturned_s, truth.overturned_s) {
-        (None, None) => shared(run.peak_ratio, truth.peak_ratio, most),
-        (Some(found), Some(due)) => shared(found, due, most),
+    let (found, due) = match (run.overturned_s, truth.overturned_s) {
+        (None, None) => (run.peak_ratio, truth.peak_ratio),
+        (Some(found), Some(due)) => (found, due),
         _ => return "wrong fate".to_owned(),
     };
-    format!("{digits:.1}")
+    format!("{:.1}", shared(found, due, most))
 }
 
 /// Fewest digits of the impacts, where there are any.
@@ -130,10 +121,7 @@ fn shared(found: DoubleDouble, due: DoubleDouble, most: f64) -> f64 {
     }
     let digits = -libm::log10(error);
     // Not a number shares nothing.
-    if !(digits > 0.0) {
-        return 0.0;
-    }
-    0.1 * (10.0 * digits.min(most)).round()
+    if digits > 0.0 { 0.1 * (10.0 * digits.min(most)).round() } else { 0.0 }
 }
 
 /// First line of the table as CSV.

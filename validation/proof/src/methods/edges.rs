@@ -8,9 +8,11 @@ use serde::Deserialize;
 use super::method::{Context, Reply, pairs};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
-use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseName, Trace};
+use crate::scene::{
+    CaseScene, Forcing, Model, Overturning, PulseName, Trace, by_equation,
+};
 
-/// What a run above an edge does, and one below it does not.
+/// A property of every run above an edge and of none below it.
 pub(super) type Flip = fn(&Trace) -> bool;
 
 /// The block overturns without an impact; below, it does not, or does so
@@ -52,8 +54,8 @@ pub(super) struct OneSine {
 }
 
 impl OneSine {
-    /// The amplitude over the threshold at which a fate flips, within a
-    /// range; not a number where it does not.
+    /// The amplitude over the threshold at which the outcome changes within a
+    /// range; not a number if it does not.
     pub fn edge(
         &self,
         context: &Context,
@@ -86,13 +88,10 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
         linear: f64,
         slenderness_rad: Vec<f64>,
     }
+    let (equation, omega) = (Model::Nonlinear, omega_over_p);
     for &alpha in &slenderness_rad {
-        let pulse = OneSine {
-            equation: Model::Nonlinear,
-            block: [alpha, 2.0, 9.81],
-            omega: omega_over_p,
-            eta: 0.92,
-        };
+        let block = [alpha, 2.0, 9.81];
+        let pulse = OneSine { equation, block, omega, eta: 0.92 };
         let found = pulse.edge(context, edge.flip(), around(linear, 0.03))?;
         answer.see("change", [found / linear - 1.0]);
     }
@@ -103,14 +102,10 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
 /// the upper edge of mode 1 and the lower edge of mode 2.
 pub fn bay(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; eta: f64, omega_over_p: f64, block: [f64; 3]);
-    let pulse = OneSine {
-        equation: Model::Linearized,
-        block,
-        omega: omega_over_p,
-        eta,
-    };
-    let upper =
-        overturning::mode_1_upper(omega_over_p, eta).context("no mode 1")?;
+    let (equation, omega) = (Model::Linearized, omega_over_p);
+    let pulse = OneSine { equation, block, omega, eta };
+    let upper = overturning::mode_1_upper(omega, eta);
+    let upper = upper.context("no mode 1")?;
     for (name, flip) in [
         ("mode-1-upper", (Overturning::HalfPi, STANDS)),
         ("mode-2-by-alpha", Edge::Mode2Alpha.flip()),
@@ -131,18 +126,14 @@ pub fn grazing(context: &Context, answer: &mut Reply) -> Result<()> {
         /// Amplitude over the threshold, less 1.
         excess: Vec<f64>,
     }
-    let p = 2.0;
+    let (p, omega) = (2.0, omega_over_p);
     for (alpha, excess) in pairs(&slenderness_rad, &excess) {
-        let omega = omega_over_p;
         let scene = CaseScene::at_rest([alpha, p], 0.92).in_equation(equation);
         let scene = scene.under(|threshold| {
-            let (a, omega) = ((1.0 + excess) * threshold, omega * p);
-            Forcing::pulse(PulseName::HalfSine, a, omega)
+            let amplitude = (1.0 + excess) * threshold;
+            Forcing::pulse(PulseName::HalfSine, amplitude, omega * p)
         });
-        let k = match scene.model {
-            Model::Nonlinear => libm::sin(alpha) / alpha,
-            Model::Linearized => 1.0,
-        };
+        let k = by_equation(equation, libm::sin(alpha) / alpha, 1.0);
         let trace = context.engine.respond(&scene)?;
         let crest = 0.5 * std::f64::consts::PI / omega;
         let w = (2.0 * excess).sqrt() / omega;
@@ -169,11 +160,10 @@ pub fn grazing(context: &Context, answer: &mut Reply) -> Result<()> {
 pub fn sizes(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; slenderness_rad: Vec<f64>, frequency_rad_s: f64);
     for &alpha in &slenderness_rad {
-        let block = [alpha, frequency_rad_s];
-        let scene = context.altered(&CaseScene::at_rest(block, 0.92));
-        let block =
-            Block::try_new(scene.slenderness_rad, scene.frequency_rad_s);
-        let size = block?.dimensions(scene.gravity_m_s2)?;
+        let scene = CaseScene::at_rest([alpha, frequency_rad_s], 0.92);
+        let scene = context.altered(&scene);
+        let (alpha, p) = (scene.slenderness_rad, scene.frequency_rad_s);
+        let size = Block::try_new(alpha, p)?.dimensions(scene.gravity_m_s2)?;
         for (name, value) in [
             ("half-diagonal-m", size.half_diagonal_m),
             ("width-m", size.width_m),

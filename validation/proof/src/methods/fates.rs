@@ -1,4 +1,4 @@
-//! Whole scenes written in the case, and the fates of records over levels.
+//! Scenes that a case writes out, and the outcomes of records over levels.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -26,7 +26,7 @@ pub(super) struct SceneInput {
     named: Option<(String, f64)>,
     record: Option<CornerRecord>,
     until_s: Option<f64>,
-    /// The whole motion times each of these, where there are such.
+    /// Factors on the whole motion, a scene each; none: one scene.
     #[serde(default)]
     factors: Vec<f64>,
     /// Impacts compared.
@@ -91,9 +91,8 @@ impl SceneInput {
             scene.forcing.scale(*factor);
             scene
         };
-        let none = self.factors.is_empty();
-        let factors = if none { &[1.0] } else { &self.factors[..] };
-        Ok(factors.iter().map(scaled).collect())
+        let once = self.factors.is_empty().then_some(&1.0);
+        Ok(self.factors.iter().chain(once).map(scaled).collect())
     }
 }
 
@@ -103,18 +102,18 @@ pub(super) fn scene_of(case: &Case) -> Result<CaseScene> {
     scenes.into_iter().next().context("no scene")
 }
 
-/// Peak, fate and counts of a scene; what is expected is in the case.
+/// Peak, outcome and counts of a scene; the case has the expected values.
 pub fn response(context: &Context, answer: &mut Reply) -> Result<()> {
     let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
     answer.see("peak-ratio", [trace.peak_ratio]);
     answer.see("uplifts", [trace.uplifts as f64]);
-    let over = f64::from(trace.overturned_s.is_some());
-    answer.see("overturned", [over]);
+    let overturned = trace.overturned_s.is_some();
+    answer.see("overturned", [f64::from(overturned)]);
     Ok(())
 }
 
-/// Fates of one record over levels of 0.01 g, under both criteria.
+/// Outcomes of one record over levels of 0.01 g, under both criteria.
 pub fn levels(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         record: String, slenderness_rad: f64, frequency_rad_s: f64,
@@ -135,21 +134,18 @@ pub fn levels(context: &Context, answer: &mut Reply) -> Result<()> {
         let first = context.engine.respond(&scene)?.overturned_s;
         let trace = context.engine.respond(&scene.to(Overturning::HalfPi))?;
         let last = trace.overturned_s;
-        let (alpha, half_pi) = match letter {
-            'S' => (0.0, 0.0),
-            'R' => (1.0, 0.0),
-            'r' | 'O' => (1.0, 1.0),
-            other => bail!("letter `{other}`"),
+        ensure!("SRrO".contains(letter), "letter `{letter}`");
+        let (alpha, half_pi) = (letter != 'S', "rO".contains(letter));
+        let mut put = |name: &str, seen: bool, due: bool| {
+            answer.put(name, [f64::from(seen)], [f64::from(due)]);
         };
-        let seen = |x: Option<f64>| f64::from(x.is_some());
-        answer.put("reaches-alpha", [seen(first)], [alpha]);
-        answer.put("reaches-half-pi", [seen(last)], [half_pi]);
+        put("reaches-alpha", first.is_some(), alpha);
+        put("reaches-half-pi", last.is_some(), half_pi);
         // A block that comes back rocks on: it meets the base in between.
         if let (Some(first), Some(last)) = (first, last) {
             let back = |t: f64| t > first && t < last;
             let back = trace.impacts.iter().any(|i| back(i.time_s));
-            let due = f64::from(letter == 'r');
-            answer.put("impact-in-between", [f64::from(back)], [due]);
+            put("impact-in-between", back, letter == 'r');
         }
     }
     Ok(())
@@ -179,11 +175,10 @@ pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
                 continue;
             }
             let factor = im * alpha / record.pga_g();
-            let scene = |slenderness_rad: f64, factor: f64| {
-                let block = [slenderness_rad, frequency_rad_s, 1.0];
+            let scene = |alpha: f64, factor: f64| {
                 let forcing = Forcing::record(record, factor);
-                let scene = CaseScene::new(block, 0.92, forcing);
-                scene.in_equation(Model::Linearized)
+                CaseScene::new([alpha, frequency_rad_s, 1.0], 0.92, forcing)
+                    .in_equation(Model::Linearized)
             };
             let scaled = Core.respond(&scene(alpha, factor))?;
             let twin = context.engine.respond(&scene(adjusted, 1.0))?;

@@ -14,8 +14,8 @@ pub fn motion(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         dt_s: f64, samples_g: Vec<f64>, period_s: f64, damping_ratio: f64,
         height_ratio: f64,
-        /// Name in the file of expected values; without one the case writes
-        /// those at the samples of the ground.
+        /// Name in the file of expected values; without it the case has the
+        /// expected values, at the samples of the ground.
         floor: Option<String>,
     }
     let period = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
@@ -27,9 +27,8 @@ pub fn motion(context: &Context, answer: &mut Reply) -> Result<()> {
     let moved: Vec<f64> = match context.wrong {
         Some(WrongModel::RelativeForAbsolute) => {
             let still = std::iter::repeat(&0.0);
-            let all = right.samples_g().iter();
-            let both = all.zip(ground.samples_g().iter().chain(still));
-            both.map(|(floor, ground)| floor - ground).collect()
+            let ground = ground.samples_g().iter().chain(still);
+            right.samples_g().iter().zip(ground).map(|(a, b)| a - b).collect()
         }
         Some(WrongModel::MassForFloor) => {
             let mass = of(1.0)?.motion(&ground)?;

@@ -6,7 +6,7 @@ use rocking::integrator::{Forces, Observe};
 
 use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
-use crate::scene::{CaseScene, Forcing, Model};
+use crate::scene::{CaseScene, Forcing, Model, by_equation};
 
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
@@ -33,10 +33,7 @@ pub fn uplift(context: &Context, answer: &mut Reply) -> Result<()> {
             Forcing::samples(0.01, samples)
         });
         let found = forces(context, &scene)?;
-        let threshold = match scene.model {
-            Model::Nonlinear => libm::tan(alpha),
-            Model::Linearized => alpha,
-        };
+        let threshold = by_equation(equation, libm::tan(alpha), alpha);
         let expected = threshold * intensity.min(1.0);
         answer.put("friction", [found.friction], [expected]);
         if intensity < 1.0 {
@@ -68,15 +65,13 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
         for k in 0..=PLACES {
             let part = k as f64 / PLACES as f64;
             let phi = top + (alpha - top) * part;
-            let (push, speed2) = match scene.model {
-                Model::Nonlinear => {
-                    (-libm::sin(phi), 2.0 * (libm::cos(top) - libm::cos(phi)))
-                }
-                Model::Linearized => (-phi, phi * phi - top * top),
-            };
-            let speed2 =
-                context.or(WrongModel::WithoutCentripetal, 0.0, speed2);
             let (s, c) = libm::sincos(phi);
+            let turned =
+                (-libm::sin(phi), 2.0 * (libm::cos(top) - libm::cos(phi)));
+            let linear = (-phi, phi * phi - top * top);
+            let (push, speed2) = by_equation(equation, turned, linear);
+            let wrong = WrongModel::WithoutCentripetal;
+            let speed2 = context.or(wrong, 0.0, speed2);
             let h = ARM * (push * c + speed2 * s);
             let n = 1.0 + ARM * (push * s - speed2 * c);
             friction = friction.max(h.abs() / n);

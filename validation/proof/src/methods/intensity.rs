@@ -14,7 +14,7 @@ use super::method::{Context, Reply, WrongModel};
 const EXPECTED: Csv = Csv::new("oracles/intensity.csv");
 const PAIR_CSV: &str = rocking_fixtures::text("oracles/intensity-pair.csv");
 
-/// How a component is made.
+/// Source of a component.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
 enum ComponentInput {
@@ -48,18 +48,14 @@ impl ComponentInput {
                 let scaled = first.samples_g().iter().map(|a| factor * a);
                 (first.dt_s(), scaled.collect())
             }
-            Self::Synthetic { column } => (0.02, pair_column(*column)),
+            Self::Synthetic { column } => {
+                let cell =
+                    |line: &str| line.split(',').nth(*column)?.parse().ok();
+                (0.02, PAIR_CSV.lines().skip(1).filter_map(cell).collect())
+            }
         };
         Ok(Accelerogram::try_new("case", dt_s, samples)?)
     }
-}
-
-fn pair_column(column: usize) -> Vec<f64> {
-    PAIR_CSV
-        .lines()
-        .skip(1)
-        .filter_map(|line| line.split(',').nth(column)?.parse().ok())
-        .collect()
 }
 
 /// Velocity in g s taken for the acceleration.
@@ -78,18 +74,16 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the motion in the file of expected values.
         motion: String,
-        /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`,
+        /// The measures to compare: `first`, `second`, `geometric_mean`, `rotd50`,
         /// `rotd100`.
         of: Vec<String>,
         first: ComponentInput, second: Option<ComponentInput>,
     }
     let rows = EXPECTED.rows(&motion)?;
-    let mut periods: Vec<f64> = Vec::new();
-    for period in rows.iter().filter_map(|row| period(row.text(2))) {
-        if !periods.contains(&period) {
-            periods.push(period);
-        }
-    }
+    let mut periods: Vec<f64> =
+        rows.iter().filter_map(|row| period(row.text(2))).collect();
+    periods.sort_by(f64::total_cmp);
+    periods.dedup();
     let stretch = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
     let damping = context.or(WrongModel::NoDamping, 0.0, 0.05);
     let stretched = periods.iter().map(|t| stretch * t).collect();
@@ -101,34 +95,29 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
         first = velocity(&first).unwrap_or(first);
         second = second.as_ref().and_then(velocity);
     }
-    let mut found: Vec<(&str, Measures)> = Vec::new();
-    match &second {
-        Some(second) => {
-            let pair =
-                PairMeasures::of(&first, second, &settings, &[50.0, 100.0])?;
-            let mut mean = pair.geometric_mean;
-            let [mut rotd50, rotd100] = <[_; 2]>::try_from(pair.rotd)
-                .map_err(|_| EXPECTED.lacks("two percentiles".to_owned()))?;
-            match context.wrong {
-                Some(WrongModel::GeometricMeanForRotd50) => {
-                    rotd50.clone_from(&mean);
-                }
-                Some(WrongModel::Rotd50ForGeometricMean) => {
-                    mean.clone_from(&rotd50);
-                }
-                _ => {}
-            }
-            let [one, two] = pair.components;
-            found.extend([("first", one), ("second", two)]);
-            found.extend([("geometric_mean", mean), ("rotd50", rotd50)]);
-            found.push(("rotd100", rotd100));
-        }
-        None => found.push(("first", Measures::of(&first, &settings)?)),
-    }
+    let alone = Measures::of(&first, &settings)?;
+    let pair = second.map(|second| {
+        PairMeasures::of(&first, &second, &settings, &[50.0, 100.0])
+    });
+    let pair = pair.transpose()?;
     for of in &of {
-        let measures = found.iter().find(|(name, _)| name == of);
-        let Some((_, measures)) = measures else {
-            bail!("no measures of `{of}`");
+        let used = match (context.wrong, of.as_str()) {
+            (Some(WrongModel::GeometricMeanForRotd50), "rotd50") => {
+                "geometric_mean"
+            }
+            (Some(WrongModel::Rotd50ForGeometricMean), "geometric_mean") => {
+                "rotd50"
+            }
+            (_, of) => of,
+        };
+        let measures = match (used, &pair) {
+            ("first", None) => &alone,
+            ("first", Some(pair)) => &pair.components[0],
+            ("second", Some(pair)) => &pair.components[1],
+            ("geometric_mean", Some(pair)) => &pair.geometric_mean,
+            ("rotd50", Some(pair)) => &pair.rotd[0],
+            ("rotd100", Some(pair)) => &pair.rotd[1],
+            _ => bail!("no measures of `{of}`"),
         };
         for row in rows.iter().filter(|row| row.text(1) == of) {
             let name = row.text(2);
@@ -140,10 +129,9 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
                 None => measures.scalar(name),
             };
             // The integral of a^2 over g.
-            let arias =
-                if name == "arias_intensity_m_s" { FRAC_2_PI } else { 1.0 };
-            let factor =
-                context.or(WrongModel::AriasWithoutItsFactor, arias, 1.0);
+            let is_arias = name == "arias_intensity_m_s";
+            let wrong = context.is(WrongModel::AriasWithoutItsFactor);
+            let factor = if wrong && is_arias { FRAC_2_PI } else { 1.0 };
             let none = || EXPECTED.lacks(format!("`{name}` is no measure"));
             let own = [factor * own.ok_or_else(none)?];
             let name = match place {

@@ -1,4 +1,4 @@
-//! What must not change: mirror image, shift in time, resampling, padding,
+//! Invariance to the mirror image, a shift in time, resampling, padding and
 //! units; and how Eq. 1 departs from similarity.
 
 use anyhow::{Result, bail};
@@ -53,11 +53,10 @@ pub fn invariance(context: &Context, answer: &mut Reply) -> Result<()> {
         let expected = Core.respond(&scene)?;
         let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
-        let (shift_s, mirror) = match change {
-            SceneChange::Shift => (SHIFT as f64 * dt_s, 1.0),
-            SceneChange::Mirror => (0.0, -1.0),
-            _ => (0.0, 1.0),
-        };
+        let shifted = matches!(change, SceneChange::Shift);
+        let shift_s = if shifted { SHIFT as f64 * dt_s } else { 0.0 };
+        let mirrored = matches!(change, SceneChange::Mirror);
+        let mirror = if mirrored { -1.0 } else { 1.0 };
         let (seen, due) = (observed.impacts.iter(), expected.impacts.iter());
         let times = seen.clone().map(|i| (i.time_s - shift_s) * p);
         let due_times = due.clone().map(|i| i.time_s * p);
@@ -92,12 +91,9 @@ fn twin(
             a.splice(0..0, std::iter::repeat_n(0.0, SHIFT));
         }
         SceneChange::Resample => {
-            let mut fine = Vec::with_capacity(2 * a.len());
-            for pair in a.windows(2) {
-                fine.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
-            }
-            fine.extend(a.last());
-            *a = fine;
+            let between = |p: &[f64]| [p[0], 0.5 * (p[0] + p[1])];
+            let fine = a.windows(2).flat_map(between).chain(a.last().copied());
+            *a = fine.collect();
             *dt_s *= 0.5;
         }
         SceneChange::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
@@ -139,12 +135,12 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
         let impact = trace.impacts.first();
         Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
     };
-    let mut changes = Vec::new();
-    for &alpha in &slenderness_rad {
-        let linear = first_speed(alpha, Model::Linearized)?;
-        let speed = first_speed(alpha, Model::Nonlinear)?;
-        changes.push(speed / linear - 1.0);
-    }
+    let change = |alpha: &f64| {
+        let linear = first_speed(*alpha, Model::Linearized)?;
+        Ok(first_speed(*alpha, Model::Nonlinear)? / linear - 1.0)
+    };
+    let changes = slenderness_rad.iter().map(change);
+    let changes = changes.collect::<Result<Vec<f64>>>()?;
     let [a, b, ..] = slenderness_rad.as_slice() else {
         bail!("two slendernesses");
     };
@@ -162,13 +158,13 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
 /// With a = IM g tan(alpha) S(t) and x = |theta|/sin(alpha), Eq. 1 of the
 /// motion on one side, -p^2 (sin(alpha - theta) + a/g cos(alpha - theta)),
 /// becomes x'' = -p^2 (1 + IM S) and, of order 1 in x, p^2 cos(alpha) x (1 -
-/// IM S tan^2(alpha)). The terms of order 0 hold no alpha, and the loss at an
-/// impact holds none. What is left is of order p^2 t^2 alpha^2, with t the
+/// IM S tan^2(alpha)). Neither the terms of order 0 nor the loss at an impact
+/// contain alpha. The remainder is of order p^2 t^2 alpha^2, with t the
 /// duration of the flights.
 ///
-/// The slendernesses are those given or, of Figure 9, those on which each
-/// record as it is has that intensity, tan(alpha) = PGA/(g IM); their closed
-/// form is divided out record by record.
+/// The slendernesses are given or, as in Figure 9, chosen so that each unscaled
+/// record has that intensity, tan(alpha) = PGA/(g IM); their closed form is
+/// then divided out record by record.
 pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// None: adjusted to each record.
@@ -183,29 +179,22 @@ pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
     for &p in &frequencies_rad_s {
         let peak = |alpha: f64, record: &Accelerogram| {
             let factor = intensity * 9.81 * libm::tan(alpha) / record.pga_g();
-            let scene = CaseScene::new(
-                [alpha, p, 9.81],
-                0.92,
-                Forcing::record(record, factor),
-            );
+            let forcing = Forcing::record(record, factor);
+            let scene = CaseScene::new([alpha, p, 9.81], 0.92, forcing);
             anyhow::Ok(context.engine.respond(&scene)?.peak_ratio)
         };
         let mut worst: f64 = 0.0;
-        let cells: Vec<Option<f64>> = match slenderness_rad.as_slice() {
-            [] => vec![None],
-            given => given.iter().copied().map(Some).collect(),
-        };
-        for given in cells {
+        let adjusted = slenderness_rad.is_empty().then_some(None);
+        let given = slenderness_rad.iter().copied().map(Some);
+        for given in given.chain(adjusted) {
             let mut ratios = Vec::new();
             for pair in &suite {
                 let record = &pair.components[0];
                 let own = libm::atan(record.pga_g() / intensity);
                 let alpha = given.unwrap_or(own);
                 let ratio = peak(alpha, record)? / peak(0.1, record)?;
-                ratios.push(match given {
-                    Some(_) => ratio,
-                    None => ratio / closed_form(alpha),
-                });
+                let form = given.map_or_else(|| closed_form(alpha), |_| 1.0);
+                ratios.push(ratio / form);
             }
             ratios.sort_by(f64::total_cmp);
             let n = ratios.len();

@@ -7,7 +7,7 @@ use super::method::{Context, Reply, SPEEDS};
 use crate::references::{
     self, Decimal, FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, hits,
 };
-use crate::scene::{CaseScene, Forcing, Model, Overturning};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, by_equation};
 
 /// Puts optional times, found and due, each times `p`.
 fn put_times<const N: usize>(
@@ -83,10 +83,7 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
 pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entry: usize, equation: Model);
     let case = FREE_ROCKING.entry(entry)?;
-    let due = match equation {
-        Model::Nonlinear => &case.nonlinear,
-        Model::Linearized => &case.linear,
-    };
+    let due = by_equation(equation, &case.nonlinear, &case.linear);
     let [alpha, p, rotation_rad] =
         [case.alpha, case.p, case.theta0].map(|digits| digits.near);
     let release = Forcing::Free { rotation_rad };

@@ -7,7 +7,9 @@ use rocking::integrator::Observe;
 use super::method::{Context, Reply, WrongModel, pairs};
 use crate::engine;
 use crate::references;
-use crate::scene::{CaseScene, Forcing, Model, Overturning, other};
+use crate::scene::{
+    CaseScene, Forcing, Model, Overturning, by_equation, other,
+};
 
 /// Energy above the base over that of the saddle, along a history in free
 /// flight, divided by eta^2 for each impact met: it stays what it was when
@@ -21,11 +23,8 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
         intensity: f64,
         duration_p: f64,
     }
-    let law = context.or(
-        WrongModel::EnergyOfTheOtherEquation,
-        other(equation),
-        equation,
-    );
+    let wrong = WrongModel::EnergyOfTheOtherEquation;
+    let law = context.or(wrong, other(equation), equation);
     for (alpha, p) in pairs(&slenderness_rad, &frequency_rad_s) {
         // A record of a rectangle and then of zeros: the block flies
         // through intervals of silence, step by step.
@@ -50,10 +49,7 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
         let eta2 = context.or(WrongModel::EtaOnceInEnergy, restitution, eta2);
         let mut start = None;
         let mut deviation: f64 = 0.0;
-        for point in &run.history {
-            if point.time_s < quiet_s {
-                continue;
-            }
+        for point in run.history.iter().filter(|p| p.time_s >= quiet_s) {
             let times = run.impacts.iter().map(|i| i.time_s);
             let met = times.filter(|t| *t >= quiet_s && *t <= point.time_s);
             let gain = met.fold(1.0, |gain, _| gain * eta2);
@@ -64,9 +60,7 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
             let saddle = level(law, alpha, alpha, 0.0);
             deviation = deviation.max((e - reference).abs() / saddle);
         }
-        if start.is_none() {
-            deviation = f64::NAN;
-        }
+        let deviation = start.map_or(f64::NAN, |_| deviation);
         answer.put("energy-drift-over-saddle", [deviation], [0.0]);
     }
     Ok(())
@@ -75,13 +69,8 @@ pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
 /// Energy above the base: w^2/2 + 2 sin(u/2) sin(alpha - u/2), or
 /// w^2/2 + u (alpha - u/2).
 fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
-    let potential = match equation {
-        Model::Nonlinear => {
-            2.0 * libm::sin(0.5 * u) * libm::sin(alpha - 0.5 * u)
-        }
-        Model::Linearized => u * (alpha - 0.5 * u),
-    };
-    0.5 * w * w + potential
+    let turned = 2.0 * libm::sin(0.5 * u) * libm::sin(alpha - 0.5 * u);
+    0.5 * w * w + by_equation(equation, turned, u * (alpha - 0.5 * u))
 }
 
 /// What runs of reference trajectories cost, apart from what they give.

@@ -2,9 +2,9 @@
 //! the settling time in closed form.
 
 use super::carlson::rf;
-use crate::scene::Model;
+use crate::scene::{Model, by_equation};
 
-/// What free rocking does.
+/// Result of free rocking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeRocking {
     /// Times of the impacts, in units of 1/p, and speeds just before them,
@@ -31,38 +31,29 @@ fn quarter(alpha_rad: f64, d: f64, q2: f64) -> f64 {
 /// Time between impacts, in units of 1/p. In Eq. 2 a quarter period is
 /// atanh(v), v = speed/(p alpha).
 fn hop(model: Model, alpha_rad: f64, d: f64) -> f64 {
-    match model {
-        Model::Nonlinear => {
-            let s = libm::sin(0.5 * alpha_rad);
-            2.0 * quarter(alpha_rad, d, s * s - 0.5 * d)
-        }
-        Model::Linearized => {
-            2.0 * libm::atanh((d / (0.5 * alpha_rad * alpha_rad)).sqrt())
-        }
+    if model == Model::Linearized {
+        return 2.0 * libm::atanh((d / (0.5 * alpha_rad * alpha_rad)).sqrt());
     }
+    let s = libm::sin(0.5 * alpha_rad);
+    2.0 * quarter(alpha_rad, d, s * s - 0.5 * d)
 }
 
 /// Energy D and time of the first impact after a release.
 fn first(model: Model, alpha_rad: f64, rotation_rad: f64) -> (f64, f64) {
-    match model {
-        Model::Nonlinear => {
-            let energy = 2.0
-                * libm::sin(0.5 * rotation_rad)
-                * libm::sin(alpha_rad - 0.5 * rotation_rad);
-            // Near the saddle the difference s^2 - D/2 is known directly.
-            let gap = libm::sin(0.5 * (alpha_rad - rotation_rad));
-            (energy, quarter(alpha_rad, energy, gap * gap))
-        }
-        Model::Linearized => {
-            let ratio = rotation_rad / alpha_rad;
-            let v2 = ratio * (2.0 - ratio);
-            // Near the saddle 1 - v = (1 - ratio)^2/(1 + v).
-            let (v, left) = (v2.sqrt(), 1.0 - ratio);
-            let far = 0.5 * libm::log((1.0 + v) * (1.0 + v) / (left * left));
-            let time = if ratio < 0.5 { libm::atanh(v) } else { far };
-            (0.5 * alpha_rad * alpha_rad * v2, time)
-        }
+    if model == Model::Linearized {
+        let ratio = rotation_rad / alpha_rad;
+        let v2 = ratio * (2.0 - ratio);
+        // Near the saddle 1 - v = (1 - ratio)^2/(1 + v).
+        let (v, left) = (v2.sqrt(), 1.0 - ratio);
+        let far = 0.5 * libm::log((1.0 + v) * (1.0 + v) / (left * left));
+        let time = if ratio < 0.5 { libm::atanh(v) } else { far };
+        return (0.5 * alpha_rad * alpha_rad * v2, time);
     }
+    let half = 0.5 * rotation_rad;
+    let energy = 2.0 * libm::sin(half) * libm::sin(alpha_rad - half);
+    // Near the saddle the difference s^2 - D/2 is known directly.
+    let gap = libm::sin(0.5 * (alpha_rad - rotation_rad));
+    (energy, quarter(alpha_rad, energy, gap * gap))
 }
 
 /// Free rocking of a block (slenderness in rad, restitution) from a rotation:
@@ -73,30 +64,26 @@ pub fn free(
     [alpha_rad, eta, rotation_rad]: [f64; 3],
     impacts: usize,
 ) -> FreeRocking {
-    let mut answer =
-        FreeRocking { impacts: Vec::new(), settling_p: f64::INFINITY };
+    let mut list = Vec::new();
     let (mut energy, mut time) = first(model, alpha_rad, rotation_rad);
-    let down = match model {
-        Model::Nonlinear => libm::sin(alpha_rad),
-        Model::Linearized => alpha_rad,
-    };
-    loop {
+    let down = by_equation(model, libm::sin(alpha_rad), alpha_rad);
+    let settling_p = loop {
         let speed = (2.0 * energy).sqrt();
-        let listed = answer.impacts.len() >= impacts;
+        let listed = list.len() >= impacts;
         if !listed {
-            answer.impacts.push((time, speed));
+            list.push((time, speed));
         }
         energy *= eta * eta;
         if listed && eta == 1.0 {
-            return answer;
+            break f64::INFINITY;
         }
         let after = eta * speed;
         if listed && after < TAIL * alpha_rad {
-            answer.settling_p = time + 2.0 * after / down / (1.0 - eta);
-            return answer;
+            break time + 2.0 * after / down / (1.0 - eta);
         }
         time += hop(model, alpha_rad, energy);
-    }
+    };
+    FreeRocking { impacts: list, settling_p }
 }
 
 /// Chatter under a constant acceleration `pull` = a/g below the uplift
@@ -120,29 +107,28 @@ pub fn chatter(
     let psi = libm::atan(pull);
     let rate = (1.0 + pull * pull).sqrt().sqrt();
     // Downward acceleration at the base on a side.
-    let down = |side: f64| match model {
-        Model::Nonlinear => rate * rate * libm::sin(alpha_rad + side * psi),
-        Model::Linearized => alpha_rad + side * pull,
+    let down = |side: f64| {
+        let turned = rate * rate * libm::sin(alpha_rad + side * psi);
+        by_equation(model, turned, alpha_rad + side * pull)
     };
-    let hop = |side: f64, v: f64| match model {
-        Model::Nonlinear => {
-            let d = 0.5 * (v / rate) * (v / rate);
-            hop(model, alpha_rad + side * psi, d) / rate
+    let hop = |side: f64, v: f64| {
+        if model == Model::Linearized {
+            return 2.0 * libm::atanh(v / down(side));
         }
-        Model::Linearized => 2.0 * libm::atanh(v / down(side)),
+        let d = 0.5 * (v / rate) * (v / rate);
+        hop(model, alpha_rad + side * psi, d) / rate
     };
-    let mut answer =
-        FreeRocking { impacts: Vec::new(), settling_p: f64::INFINITY };
+    let mut list = Vec::new();
     let (mut time, mut v, mut side) = (time_p, eta * speed_p, 1.0);
-    while v > TAIL * alpha_rad || answer.impacts.len() < impacts {
+    while v > TAIL * alpha_rad || list.len() < impacts {
         time += hop(side, v);
-        if answer.impacts.len() < impacts {
-            answer.impacts.push((time, v));
+        if list.len() < impacts {
+            list.push((time, v));
         }
         v *= eta;
         side = -side;
     }
     let hops = 1.0 / down(side) + eta / down(-side);
-    answer.settling_p = time + 2.0 * v * hops / (1.0 - eta * eta);
-    answer
+    let settling_p = time + 2.0 * v * hops / (1.0 - eta * eta);
+    FreeRocking { impacts: list, settling_p }
 }

@@ -1,5 +1,5 @@
-//! Closed forms, written anew: no formula here is shared with the core. The
-//! shape of a pulse and its parameters are, which are data alone.
+//! Independent closed forms: no formula here is shared with the core. Only the
+//! names and parameters of the pulses are.
 
 pub mod carlson;
 pub mod free_rocking;
@@ -8,8 +8,8 @@ pub mod overturning;
 pub mod rectangular;
 pub mod square;
 
-/// Root of `f` between `low` and `high`, where it has opposite signs; not a
-/// number where it has not.
+/// Root of `f` between `low` and `high`; not a number if `f` has the same sign
+/// at both.
 pub fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rising = f(high) > 0.0;
     if (f(low) > 0.0) == rising {

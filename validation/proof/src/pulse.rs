@@ -1,5 +1,5 @@
-//! The pulses, computed anew: acceleration, turns and end, and a particular
-//! solution of Eq. 2 under each. The core gives their names and parameters.
+//! An independent computation of the pulses: acceleration, turns and end, and
+//! a particular solution of Eq. 2. The core gives their names and parameters.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
@@ -11,8 +11,8 @@ fn ricker_beta() -> f64 {
     6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r)
 }
 
-/// A pulse on a block with p = 1 rad/s, as it acts on one with this p; its
-/// acceleration is multiplied by `unit`.
+/// The equivalent, on a block with this p, of a pulse on a block with
+/// p = 1 rad/s; the acceleration is multiplied by `unit`.
 pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
     for (parameter, value) in pulse.parameters_mut() {
         match parameter {
@@ -67,6 +67,7 @@ pub fn turns(pulse: PulseKind) -> (f64, Vec<f64>) {
 }
 
 /// Acceleration and particular solution P'' - P = -A with its derivative.
+#[derive(Default)]
 pub struct Particular {
     pub a: f64,
     pub p: f64,
@@ -74,11 +75,10 @@ pub struct Particular {
 }
 
 pub fn kinks(pulse: PulseKind) -> Vec<f64> {
+    let end = turns(pulse).0;
     match pulse {
-        PulseKind::Triangle { duration_s, .. } => {
-            vec![0.0, 0.5 * duration_s, duration_s]
-        }
-        _ => vec![0.0, turns(pulse).0],
+        PulseKind::Triangle { .. } => vec![0.0, 0.5 * end, end],
+        _ => vec![0.0, end],
     }
 }
 
@@ -97,12 +97,9 @@ pub fn particular(pulse: PulseKind, piece: usize, t: f64) -> Particular {
         }
         PulseKind::Triangle { amplitude, duration_s } => {
             let slope = 2.0 * amplitude / duration_s;
-            if piece == 0 {
-                Particular { a: slope * t, p: slope * t, v: slope }
-            } else {
-                let value = slope * (duration_s - t);
-                Particular { a: value, p: value, v: -slope }
-            }
+            let left = duration_s - t;
+            let (x, v) = if piece == 0 { (t, slope) } else { (left, -slope) };
+            Particular { a: slope * x, p: slope * x, v }
         }
         PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
             let rate = SQRT_2 * PI / period_s;
@@ -133,11 +130,10 @@ pub fn particular(pulse: PulseKind, piece: usize, t: f64) -> Particular {
         } => {
             let w = TAU * frequency_hz;
             let u = t - 0.5 * gamma / frequency_hz;
-            let mut sum = Particular { a: 0.0, p: 0.0, v: 0.0 };
+            let mut sum = Particular::default();
             let (up, down) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
-            for (share, rate) in
-                [(0.5, 1.0), (0.25 * up, up), (0.25 * down, down)]
-            {
+            let parts = [(0.5, 1.0), (0.25 * up, up), (0.25 * down, down)];
+            for (share, rate) in parts {
                 let scale = -velocity * w * share;
                 let part = sine(scale, w * rate, phase_rad, u);
                 sum.a += part.a;

@@ -1,8 +1,8 @@
-//! Numbers of a reference's CSV, and refusals.
+//! Numbers in the CSV files of expected values.
 
 use std::str::FromStr;
 
-use anyhow::{Context as _, Error, Result, anyhow};
+use anyhow::{Context as _, Error, Result, anyhow, ensure};
 use rocking::number::double::DoubleDouble;
 
 use super::method::Reply;
@@ -22,25 +22,20 @@ impl Csv {
 
     /// Rows by their first field.
     pub fn rows(&self, first: &str) -> Result<Vec<CsvRow>> {
-        let file = self.file;
-        let cells = |line: &'static str| line.split(',').collect::<Vec<_>>();
-        let lines = self.text.lines().map(cells);
-        let rows: Vec<CsvRow> = lines
-            .filter(|cells| cells.first() == Some(&first))
-            .map(|cells| CsvRow { file, cells })
-            .collect();
-        if rows.is_empty() {
-            return Err(self.lacks(format!("no row `{first}`")));
-        }
+        let (file, lines) = (self.file, self.text.lines());
+        let rows = lines.map(|line| line.split(',').collect::<Vec<_>>());
+        let rows = rows.filter(|cells| cells[0] == first);
+        let rows: Vec<_> = rows.map(|cells| CsvRow { file, cells }).collect();
+        ensure!(!rows.is_empty(), self.lacks(format!("no row `{first}`")));
         Ok(rows)
     }
 
     /// The row that begins with these fields.
     pub fn row(&self, first: &[&str]) -> Result<CsvRow> {
-        let mut rows = self.rows(first.first().unwrap_or(&""))?.into_iter();
+        let mut rows = self.rows(first[0])?.into_iter();
         let found = rows.find(|row| row.cells.starts_with(first));
-        found
-            .ok_or_else(|| self.lacks(format!("no row `{}`", first.join(","))))
+        let none = || self.lacks(format!("no row `{}`", first.join(",")));
+        found.ok_or_else(none)
     }
 
     pub fn lacks(&self, what: impl std::fmt::Display) -> Error {
@@ -55,12 +50,12 @@ pub struct CsvRow {
 }
 
 impl CsvRow {
-    /// The text in a column, empty where there is none.
+    /// The text in a column; empty if there is none.
     pub fn text(&self, column: usize) -> &'static str {
         self.cells.get(column).copied().unwrap_or_default()
     }
 
-    /// The numbers from a column on, so many.
+    /// N numbers from a column on.
     pub fn numbers<const N: usize>(&self, from: usize) -> Result<[f64; N]> {
         let mut numbers = [f64::NAN; N];
         for (k, number) in numbers.iter_mut().enumerate() {
@@ -69,7 +64,7 @@ impl CsvRow {
         Ok(numbers)
     }
 
-    /// The numbers that stand in a column, parted by a character.
+    /// The numbers in a column, separated by a character.
     pub fn list(&self, column: usize, by: char) -> Result<Vec<f64>> {
         let cells = self.text(column).split(by);
         cells.map(|cell| self.parsed(cell)).collect()
@@ -80,7 +75,7 @@ impl CsvRow {
         self.wide(self.text(column))
     }
 
-    /// The decimals that stand in a column, parted by semicolons.
+    /// The decimals in a column, separated by semicolons.
     pub fn decimals(&self, column: usize) -> Result<Vec<DoubleDouble>> {
         let cells = self.text(column).split(';');
         cells.map(|cell| self.wide(cell)).collect()
@@ -90,13 +85,13 @@ impl CsvRow {
         decimal(text).with_context(|| self.no(text))
     }
 
-    /// What a text stands for.
+    /// The value of a text.
     pub fn parsed<T: FromStr>(&self, text: &str) -> Result<T> {
         text.trim().parse().ok().with_context(|| self.no(text))
     }
 
     fn no(&self, text: &str) -> String {
-        format!("fixtures/{}: `{text}` is none", self.file)
+        format!("fixtures/{}: `{text}` is no value", self.file)
     }
 
     /// The number in a column.
@@ -104,8 +99,8 @@ impl CsvRow {
         self.parsed(self.text(column))
     }
 
-    /// Puts quantities, whose expected values stand from a column on; `NA`
-    /// stands where the reference has none.
+    /// Puts quantities beside their expected values from a column on; `NA`
+    /// means that the reference has no value.
     pub fn put(
         &self,
         answer: &mut Reply,

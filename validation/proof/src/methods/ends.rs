@@ -42,17 +42,17 @@ fn scenes(kind: &str) -> Result<Vec<(CaseScene, [DoubleDouble; 3])>> {
     ENDS.rows(kind)?.into_iter().map(of).collect()
 }
 
-/// What is true of a run.
+/// The truth about a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Due {
     Overturned,
     NoUplift,
-    /// The largest |theta|/alpha, where it is known.
+    /// The largest |theta|/alpha, if it is known.
     Rocked(Option<DoubleDouble>),
 }
 
 impl Due {
-    /// True where an outcome is that, and its peak within a bound but for the
+    /// True if an outcome agrees, with its peak within a bound and the
     /// rounding to a double.
     fn is(self, outcome: &Outcome, error: f64) -> bool {
         match (self, outcome) {
@@ -69,13 +69,13 @@ impl Due {
     }
 }
 
-/// Runs counted by what is found of them.
+/// Counts of runs by name.
 #[derive(Default)]
 struct Counts(BTreeMap<&'static str, f64>);
 
 impl Counts {
-    /// Takes in a scene; `one_fate` where all inputs that round to the same
-    /// doubles surely have one.
+    /// Counts a scene; `one_fate` is true if all inputs that round to the same
+    /// doubles surely have the same outcome.
     fn take(
         &mut self,
         scene: &CaseScene,
@@ -87,11 +87,10 @@ impl Counts {
         let response = respond(scene, &observe)?;
         let seen = DoubleRun::of(&response);
         let clear = reading.is_clear(&seen);
-        let error = match response.assessment() {
-            Assessment::Clear => reading.estimate(&seen),
-            // The reading takes the run for clear, and has no bound.
-            _ => f64::INFINITY,
-        };
+        // A wrong reading can call a run clear that has no bound.
+        let bounded = response.assessment() == Assessment::Clear;
+        let error =
+            if bounded { reading.estimate(&seen) } else { f64::INFINITY };
         let right = due.is(&response.outcome, error);
         let fate = on_core(scene, Quotient::Kept, |scene| {
             certify(scene, &Certify { until_s, ..Certify::default() })
@@ -106,7 +105,7 @@ impl Counts {
             ("wrong-and-unresolved", !clear && !right),
             ("certified-open", !fate.resolved),
             ("certified-wrong", fate.resolved && !certified),
-            // Inputs that round to the same doubles have more than one fate.
+            // Inputs that round to the same doubles differ in outcome.
             ("wrong-for-all-inputs", surely && !one_fate),
         ] {
             *self.0.entry(name).or_default() += f64::from(is);
@@ -117,13 +116,13 @@ impl Counts {
     fn put(self, answer: &mut Reply) {
         let runs = self.0["runs"];
         for (name, count) in self.0 {
-            match name {
-                "wrong-and-clear"
-                | "certified-wrong"
-                | "wrong-for-all-inputs" => answer.put(name, [count], [0.0]),
-                "unresolved-share" => answer.see(name, [count / runs]),
-                _ => answer.see(name, [count]),
-            }
+            let share = name == "unresolved-share";
+            answer.see(name, [if share { count / runs } else { count }]);
+        }
+        for never in
+            ["wrong-and-clear", "certified-wrong", "wrong-for-all-inputs"]
+        {
+            answer.put(never, [], [0.0]);
         }
     }
 }
@@ -154,7 +153,7 @@ pub fn ends(context: &Context, answer: &mut Reply) -> Result<()> {
                     (false, true) => Due::Rocked(None),
                     (false, false) => Due::NoUplift,
                 };
-                // Within half a unit the end itself has two fates.
+                // Within half a unit the end itself has two outcomes.
                 let unit = moved(until_s, 1) - until_s;
                 let one_fate = left_s.abs().to_f64() > 0.5 * unit;
                 scene.until_s = Some(until_s);
@@ -172,8 +171,8 @@ pub fn touches(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut counts = Counts::default();
     for (scene, [lifts, peak, one_fate]) in scenes("touch")? {
         let is = |x: DoubleDouble| x > DoubleDouble::zero();
-        let due =
-            if is(lifts) { Due::Rocked(Some(peak)) } else { Due::NoUplift };
+        let rocked = Due::Rocked(Some(peak));
+        let due = if is(lifts) { rocked } else { Due::NoUplift };
         counts.take(&scene, (due, is(one_fate)), reading)?;
     }
     counts.put(answer);

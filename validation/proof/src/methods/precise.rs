@@ -1,9 +1,9 @@
-//! The double-double engine against references of 36 and 40 digits. What is
-//! observed is the error itself, taken in double-double.
+//! The double-double engine against references of 36 and 40 digits. The
+//! observed quantities are the errors, computed in double-double.
 
 use std::collections::BTreeMap;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
@@ -13,7 +13,7 @@ use crate::engine::{Precision, WideTrace};
 use crate::references::{self, Decimal, LINEAR_PULSES, RECT_PULSE};
 use crate::scene::{CaseScene, Forcing, Model, Overturning};
 
-/// The largest error of each quantity; infinite where something is missing.
+/// The largest error of each quantity; infinite if a value is missing.
 impl Reply {
     fn add(&mut self, name: &str, error: f64) {
         let error = if error.is_nan() { f64::INFINITY } else { error };
@@ -38,11 +38,11 @@ impl Reply {
         self.add(name, error);
     }
 
-    /// The peak's relative error; the error itself where none is due.
+    /// The relative error of the peak; infinite if no peak is expected.
     fn peak(&mut self, found: DoubleDouble, due: Option<Decimal>) {
-        let due = due.map(|peak| peak.wide);
-        let size = due.map_or(f64::NAN, DoubleDouble::to_f64);
+        let size = due.map_or(f64::NAN, |peak| peak.near);
         let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
+        let due = due.map(|peak| peak.wide);
         self.compare("relative-error-of-peak", Some(found), due, unit);
     }
 
@@ -126,11 +126,10 @@ pub fn linear_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
     let due = &case.expected;
     for block in blocks {
         let [alpha, p, g] = block;
-        if block.iter().any(|x| libm::frexp(*x).0 != 0.5) {
-            bail!("block {alpha}, {p}, {g}: powers of two");
-        }
-        let trace =
-            wide_trace(context, &case.scene(block, Overturning::Alpha)?)?;
+        let exact = block.iter().all(|x| libm::frexp(*x).0 == 0.5);
+        ensure!(exact, "block {alpha}, {p}, {g}: powers of two");
+        let scene = case.scene(block, Overturning::Alpha)?;
+        let trace = wide_trace(context, &scene)?;
         let units = [1.0 / p, p * alpha];
         let listed = due.impacts.iter().map(|hit| hit.wide(units));
         answer.impacts(&trace, listed, p);
@@ -150,21 +149,19 @@ const FREE: Csv = Csv::new("oracles/free.csv");
 pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; equation: Model, frequency_rad_s: f64);
     let p = frequency_rad_s;
-    let mut scenes = BTreeMap::new();
+    let mut blocks = BTreeMap::<_, BTreeMap<_, Vec<DoubleDouble>>>::new();
     for row in FREE.rows(equation.name())? {
-        let [alpha, eta, ratio] = row.numbers(1)?;
-        let release = Forcing::Free { rotation_rad: alpha * ratio };
-        let scene = CaseScene::new([alpha, p, 9.81], eta, release);
-        let name = [1, 2, 3].map(|column| row.text(column));
-        let entry = scenes.entry(name);
-        let new = || (scene.in_equation(equation), BTreeMap::new());
-        let (_, lists) = entry.or_insert_with(new);
-        let list: &mut Vec<_> = lists.entry(row.text(4)).or_default();
-        list.push(row.decimal(6)?);
+        let block = [1, 2, 3].map(|column| row.text(column));
+        let lists = blocks.entry(block).or_default();
+        lists.entry(row.text(4)).or_default().push(row.decimal(6)?);
     }
     let unit = DoubleDouble::from_f64(p);
-    for (scene, lists) in scenes.values() {
-        let trace = wide_trace(context, scene)?;
+    for (block, lists) in blocks {
+        let [alpha, eta, ratio] = block.map(str::parse::<f64>);
+        let (alpha, rotation_ratio) = (alpha?, ratio?);
+        let release = Forcing::Free { rotation_rad: alpha * rotation_ratio };
+        let scene = CaseScene::new([alpha, p, 9.81], eta?, release);
+        let trace = wide_trace(context, &scene.in_equation(equation))?;
         let pairs = lists["time"].iter().zip(&lists["speed"]);
         let listed = pairs.map(|(t, v)| (*t / unit, *v * unit));
         answer.impacts(&trace, listed, p);
@@ -188,10 +185,9 @@ pub fn rectangular_pulse(context: &Context, answer: &mut Reply) -> Result<()> {
         let listed = case.impacts.iter().map(|hit| hit.wide([1.0; 2]));
         answer.impacts(&trace, listed, p);
         answer.peak(trace.peak_ratio, Some(peak));
-        if let Some(rest) = case.settling_time {
-            let rest = Some(rest.wide);
-            answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
-        }
+        let Some(rest) = case.settling_time else { continue };
+        let rest = Some(rest.wide);
+        answer.compare("error-of-rest-time-p", trace.rest_s, rest, p);
     }
     Ok(())
 }

@@ -1,6 +1,5 @@
 //! The reference data set for other codes: its certified values against the
-//! core in double-double, and its diagnosis against codes whose mistake is
-//! known.
+//! core in double-double, and its diagnosis of codes with a known mistake.
 
 use anyhow::{Result, anyhow};
 use rocking::number::double::DoubleDouble;
@@ -13,7 +12,7 @@ use rocking_statistics::streams::{Streams, standard_normal};
 
 use super::method::{Context, Reply, WrongModel};
 use crate::arithmetic::{RoundedConstants, decimal, wide};
-use crate::scene::{CaseScene, Engine as _, Forcing, Trace};
+use crate::scene::{CaseScene, Engine as _, Forcing, Impact, Trace};
 
 /// The scene as a wrong model of the input has it.
 fn mistaken(context: &Context, scene: &Problem) -> Problem {
@@ -24,17 +23,17 @@ fn mistaken(context: &Context, scene: &Problem) -> Problem {
     scene
 }
 
-/// Largest error of a certified value over its size and condition; fates and
-/// counts that differ.
+/// Largest error of a certified value over its size and condition; the number
+/// of outcomes and counts that differ.
 pub fn certified(context: &Context, answer: &mut Reply) -> Result<()> {
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
     for (index, scene) in reference().scenes.iter().enumerate() {
         let scene = mistaken(context, scene);
-        let found = match context.is(WrongModel::F64Constants) {
-            true => errors::<RoundedConstants>(index, &scene),
-            false => errors::<DoubleDouble>(index, &scene),
+        let (error, others) = if context.is(WrongModel::F64Constants) {
+            errors::<RoundedConstants>(index, &scene)?
+        } else {
+            errors::<DoubleDouble>(index, &scene)?
         };
-        let (error, others) = found?;
         worst = worst.max(error);
         wrong += others;
     }
@@ -68,8 +67,8 @@ fn errors<N: Real>(index: usize, scene: &Problem) -> Result<(f64, f64)> {
 
 /// Shares of codes whose diagnosis is right: of the right code, of every
 /// wrong model and pair on its own answers, of wrong models by the core on
-/// altered inputs; and the share of wrong models that are taken for another
-/// one where they are not known.
+/// altered inputs; and the share of wrong models that are mistaken for another
+/// one if the diagnosis does not know them.
 pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Relative scatter of the answers.
@@ -78,17 +77,16 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
         altered: Vec<WrongModel>,
     }
     let set = reference();
-    let right =
-        answers_of(|scene| OwnResponse::double(&mistaken(context, scene)))
-            .map_err(|e| anyhow!(e))?;
+    let run = |scene: &_| OwnResponse::double(&mistaken(context, scene));
+    let right = answers_of(run).map_err(|e| anyhow!(e))?;
     for scatter in noise {
         let noisy =
-            |name: &str, right: &dyn Fn(usize, &Item) -> Option<Value>| {
+            |name: &str, of: &dyn Fn(usize, &Item) -> Option<Value>| {
                 let streams = Streams::new(&format!("{scatter}/{name}"), 0);
                 let mut stream = streams.stream(0);
                 let mut answers = Answers::none();
                 for (place, item) in set.items.iter().enumerate() {
-                    let mut value = right(place, item);
+                    let mut value = of(place, item);
                     if let Some(Value::Number(x)) = &mut value {
                         *x *= 1.0 + scatter * standard_normal(&mut stream);
                     }
@@ -102,13 +100,11 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
         let (mut named, mut guessed, mut singles) = (0.0, 0.0, 0.0);
         for (model, name) in set.models.iter().enumerate() {
             let own = noisy(name, &|_, item| item.wrong[model].clone());
-            let found = diagnose(&own, &[]);
-            let good = names(&found) == [name.clone()];
-            named += f64::from(good);
+            let found = names(&diagnose(&own, &[]));
+            named += f64::from(found == [name.clone()]);
             if !name.contains('+') {
-                let found = diagnose(&own, &[name.as_str()]);
-                let other =
-                    found.explanations.iter().any(|one| one.factor.is_none());
+                let all = diagnose(&own, &[name.as_str()]).explanations;
+                let other = all.iter().any(|one| one.factor.is_none());
                 guessed += f64::from(other);
                 singles += 1.0;
             }
@@ -117,8 +113,8 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
         answer.see("unknown-models-guessed", [guessed / singles]);
         let mut good = 0.0;
         for wrong in &altered {
-            // A scene that the core refuses has no answers: a release beyond
-            // an alpha that is too low.
+            // The core refuses a release beyond an alpha that is too low:
+            // this scene has no answers.
             let runs = set.scenes.iter();
             let runs = runs.map(|scene| wrong.respond(&scene_of(scene)).ok());
             let runs: Vec<Option<Trace>> = runs.collect();
@@ -128,8 +124,8 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
             let found = names(&diagnose(&own, &[]));
             good += f64::from(found == [wrong.name()]);
         }
-        answer
-            .see("models-of-the-harness-named", [good / altered.len() as f64]);
+        let good = good / altered.len() as f64;
+        answer.see("models-of-the-harness-named", [good]);
     }
     Ok(())
 }
@@ -160,24 +156,20 @@ fn scene_of(asked: &Problem) -> CaseScene {
         .to(asked.overturning)
 }
 
-/// What a trace of the harness says of a quantity; nothing of rotations.
+/// The value of a quantity in a trace of the harness; none for rotations.
 fn seen(asked: &Problem, trace: &Trace, item: &Item) -> Option<Value> {
     let falls = trace.overturned_s.is_some();
     let quantity = item.quantity.as_str();
     let number = match quantity {
         "fate" => {
             let moves = trace.uplifts > 0 || asked.initial_theta_rad != 0.0;
-            let fate = match (falls, moves) {
-                (true, _) => "overturned",
-                (false, true) => "rocked",
-                (false, false) => "no-uplift",
-            };
+            let stands = if moves { "rocked" } else { "no-uplift" };
+            let fate = if falls { "overturned" } else { stands };
             return Some(Value::Fate(fate.into()));
         }
         "impacts" => {
-            let until = asked.impacts_until_s;
-            let all = trace.impacts.iter();
-            let count = all.filter(|i| i.time_s <= until).count();
+            let counts = |i: &&Impact| i.time_s <= asked.impacts_until_s;
+            let count = trace.impacts.iter().filter(counts).count();
             return Some(Value::Count(count as u64));
         }
         "uplift_time_s" => trace.uplift_s,

@@ -4,7 +4,7 @@
 use anyhow::Result;
 use serde::Deserialize;
 
-use super::method::{Context, Reply, WrongModel};
+use super::method::{Context, Reply, SPEEDS, WrongModel};
 use crate::oracles::square::{SquareState, SquareWave};
 use crate::scene::{CaseScene, Forcing, Overturning};
 
@@ -15,7 +15,7 @@ struct WaveInput {
     block: [f64; 3],
     /// Unit of the durations, times p.
     unit_p: f64,
-    /// Intervals that a unit is divided into, and then into twice as many.
+    /// Parts into which a unit is divided; then twice as many.
     intervals: usize,
     /// Square waves: acceleration over g tan(alpha) and whole units of each
     /// stretch.
@@ -57,7 +57,7 @@ impl WaveInput {
         CaseScene::new([alpha, p, 9.81], eta, forcing).to(Overturning::HalfPi)
     }
 
-    /// What `measure` sees, extrapolated from two intervals to none.
+    /// The result of `measure`, extrapolated from two intervals to none.
     fn extrapolated(
         &self,
         measure: impl Fn(usize) -> Result<Vec<f64>>,
@@ -89,28 +89,25 @@ pub fn chained(context: &Context, answer: &mut Reply) -> Result<()> {
             Ok(times.chain(impacts.map(|i| i.speed_before_rad_s)).collect())
         })?;
         let (times, speeds) = seen.split_at(seen.len() / 2);
-        let listed = due.impacts.iter();
-        let list = listed.clone().map(|i| i.0);
-        answer.put("impact-times-p", times.iter().map(|t| t * p), list);
-        let list = listed.map(|i| i.1 / alpha);
+        let listed = due.impacts.iter().map(|i| i.0);
+        answer.put("impact-times-p", times.iter().map(|t| t * p), listed);
+        let listed = due.impacts.iter().map(|i| i.1 / alpha);
         let speeds = speeds.iter().map(|v| v / (p * alpha));
-        answer.put("impact-speeds", speeds, list);
+        answer.put(SPEEDS, speeds, listed);
         let end = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals);
             let seen = context.state(&scene, end_p / p)?;
-            Ok(vec![
-                seen.rotation_rad / alpha,
-                seen.velocity_rad_s / (p * alpha),
-            ])
+            let speed = seen.velocity_rad_s / (p * alpha);
+            Ok(vec![seen.rotation_rad / alpha, speed])
         })?;
         let SquareState { side, y, w } = due.end;
-        let list = [side * y / alpha, side * w / alpha];
-        answer.put("state-at-end", end, list);
+        let state = [side * y / alpha, side * w / alpha];
+        answer.put("state-at-end", end, state);
     }
     Ok(())
 }
 
-/// Fates after square waves, by where the block is, which way it moves and
+/// Outcomes after square waves, by the place of the block, its direction and
 /// whether its energy passes the saddle.
 pub fn exclusions(context: &Context, answer: &mut Reply) -> Result<()> {
     let input: WaveInput = context.input()?;
@@ -138,10 +135,9 @@ pub fn exclusions(context: &Context, answer: &mut Reply) -> Result<()> {
         let speed = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals);
             let trace = context.engine.respond(&scene)?;
-            let after = trace.impacts.get(before);
+            let after = trace.impacts.iter().skip(before).take(1);
             let after = after.filter(|impact| impact.time_s > end_s);
-            let speed = after.map(|i| i.speed_before_rad_s / (p * alpha));
-            Ok(Vec::from_iter(speed))
+            Ok(after.map(|i| i.speed_before_rad_s / (p * alpha)).collect())
         })?;
         let due = due.impact.map(|v| v / alpha);
         answer.put("impact-speed-after", speed, due);

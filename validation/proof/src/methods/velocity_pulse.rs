@@ -27,9 +27,6 @@ const SINES: [(f64, f64, f64); 5] = [
     (0.5, 5.3, 1.7),
 ];
 
-/// A number of a candidate.
-type PulseQuantity = fn(&Candidate) -> f64;
-
 /// A pulse of Mavroeidis and Papageorgiou along one direction, and modulated
 /// sines, rounded to a millionth of g.
 #[derive(Deserialize)]
@@ -61,18 +58,16 @@ impl PulseInput {
     }
 
     fn component(&self, share: f64, number: f64) -> Result<Accelerogram> {
-        let samples = (0..SAMPLES.1)
-            .map(|i| {
-                let t = SAMPLES.0 * i as f64;
-                let envelope =
-                    self.noise_g * t / 8.0 * libm::exp(1.0 - t / 8.0);
-                let sines = SINES.iter().fold(0.0, |sum, (a, f, phase)| {
-                    sum + a * libm::sin(2.0 * PI * f * t + number * phase)
-                });
-                let a = share * self.acceleration_g(t) + envelope * sines;
-                (a * 1e6).round() / 1e6
-            })
-            .collect();
+        let sample = |i: usize| {
+            let t = SAMPLES.0 * i as f64;
+            let envelope = self.noise_g * t / 8.0 * libm::exp(1.0 - t / 8.0);
+            let sines = SINES.iter().fold(0.0, |sum, (a, f, phase)| {
+                sum + a * libm::sin(2.0 * PI * f * t + number * phase)
+            });
+            let a = share * self.acceleration_g(t) + envelope * sines;
+            (a * 1e6).round() / 1e6
+        };
+        let samples = (0..SAMPLES.1).map(sample).collect();
         Ok(Accelerogram::try_new("case", SAMPLES.0, samples)?)
     }
 }
@@ -89,7 +84,7 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     // PGV enters in cm/s.
     let unit = context.or(WrongModel::VelocityInMS, 0.01, 1.0);
     let found = candidates(&first, &second, unit * STANDARD_GRAVITY_M_S2)?;
-    let quantities: [(&str, PulseQuantity); 8] = [
+    let quantities: [(&str, fn(&Candidate) -> f64); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
         ("direction_rad", |c| c.direction_rad),
@@ -106,8 +101,7 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     let late = found.iter().find(|c| c.indicator > 0.0);
     let chosen = context.or(WrongModel::LatePulsesKept, late, pulse(&found));
-    let is = f64::from(chosen.is_some());
-    answer.see("pulse-like", [is]);
+    answer.see("pulse-like", [f64::from(chosen.is_some())]);
     if let Some(shown) = chosen.or(found.first()) {
         let known = shown.period_s * input.frequency_hz;
         answer.see("period-over-known", [known]);

@@ -10,21 +10,17 @@
 /// // Carlson 1995, R_F(2, 3, 4).
 /// assert!((rf(2.0, 3.0, 4.0) - 0.584_082_841_677_15).abs() < 1e-13);
 /// ```
-pub fn rf(x: f64, y: f64, z: f64) -> f64 {
-    let (mut x, mut y, mut z) = (x, y, z);
+pub fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     // Each round divides the spread by four: sixty are more than enough.
     for _ in 0..60 {
         let mean = (x + y + z) / 3.0;
         let spread = (mean - x).abs().max((mean - y).abs());
-        let spread = spread.max((mean - z).abs());
-        if spread <= 1e-3 * mean {
+        if spread.max((mean - z).abs()) <= 1e-3 * mean {
             break;
         }
         let (a, b, c) = (x.sqrt(), y.sqrt(), z.sqrt());
         let lambda = a * b + b * c + c * a;
-        x = 0.25 * (x + lambda);
-        y = 0.25 * (y + lambda);
-        z = 0.25 * (z + lambda);
+        [x, y, z] = [x, y, z].map(|x| 0.25 * (x + lambda));
     }
     let mean = (x + y + z) / 3.0;
     let (a, b) = (1.0 - x / mean, 1.0 - y / mean);

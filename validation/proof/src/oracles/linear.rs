@@ -1,11 +1,12 @@
 //! Eq. 2 under an analytic pulse: closed form between events, in p t,
-//! theta/alpha and a/(g alpha). A pulse is that of a block with p = 1 rad/s
-//! and g alpha = 1 m/s2.
+//! theta/alpha and a/(g alpha). The pulse acts on a block with p = 1 rad/s and
+//! g alpha = 1 m/s2.
 
+use super::bisect;
 use crate::pulse::{Particular, kinks, particular};
 use crate::scene::PulseKind;
 
-/// What the block does.
+/// Response of the block.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct LinearResponse {
     /// First uplift.
@@ -18,11 +19,11 @@ pub struct LinearResponse {
     pub overturned: Option<f64>,
 }
 
-/// Points of a piece that are looked at, closer together at its start.
+/// Sampled points of a piece, closer together at its start.
 const POINTS: usize = 4000;
 
-/// Rotation over alpha above which a hop counts as begun: shorter hops are
-/// beyond this oracle.
+/// Rotation over alpha above which a hop counts as begun; this oracle does
+/// not resolve shorter hops.
 const ROUNDING: f64 = 1e-13;
 
 /// A hop on one smooth piece: z = |theta|/alpha from `start` on.
@@ -44,13 +45,8 @@ impl LinearHop {
         let part = in_flight(pulse, t);
         let y = z - 1.0 - side * part.p;
         let v = w - side * part.v;
-        Self {
-            pulse,
-            side,
-            start: t,
-            growing: 0.5 * (y + v),
-            decaying: 0.5 * (y - v),
-        }
+        let (growing, decaying) = (0.5 * (y + v), 0.5 * (y - v));
+        Self { pulse, side, start: t, growing, decaying }
     }
 
     fn state(&self, t: f64) -> (f64, f64) {
@@ -63,9 +59,8 @@ impl LinearHop {
 }
 
 fn in_flight(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
-    pulse.map_or(Particular { a: 0.0, p: 0.0, v: 0.0 }, |(pulse, piece)| {
-        particular(pulse, piece, t)
-    })
+    let of = |(pulse, piece)| particular(pulse, piece, t);
+    pulse.map_or(Particular::default(), of)
 }
 
 /// Response from rest, with at most `impacts` impacts.
@@ -76,20 +71,20 @@ pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> LinearResponse {
     let Some((piece, uplift)) = uplift(pulse, &kinks) else {
         return response;
     };
-    let side =
-        -particular(pulse, piece, inside(uplift, &kinks, piece)).a.signum();
+    // Just after the uplift.
+    let inside = uplift + 1e-9 * (kinks[piece + 1] - kinks[piece]);
+    let mut side = -particular(pulse, piece, inside).a.signum();
     response.uplift = Some(uplift);
     response.side = side;
-    let (mut t, mut z, mut w, mut side) = (uplift, 0.0, 0.0, side);
+    let (mut t, mut z, mut w) = (uplift, 0.0, 0.0);
     for k in piece..kinks.len() {
         let end = kinks.get(k + 1).copied().unwrap_or(f64::INFINITY);
         loop {
+            // The free branch is followed until its outcome is settled.
             let over = end.is_infinite();
-            // The free branch is followed until its fate is settled.
             let last = if over { t + 60.0 } else { end };
-            let hop =
-                LinearHop::new((!over).then_some((pulse, k)), side, t, (z, w));
-            match next(&hop, last) {
+            let pulse = (!over).then_some((pulse, k));
+            match next(&LinearHop::new(pulse, side, t, (z, w)), last) {
                 Next::Reached(state) => {
                     (z, w) = state;
                     t = last;
@@ -132,19 +127,18 @@ fn next(hop: &LinearHop, end: f64) -> Next {
     for k in 2..=POINTS {
         let now = if k == POINTS { end } else { at(k) };
         let new = hop.state(now);
-        let turn = (old.1 * new.1 < 0.0)
-            .then(|| super::bisect(before, now, |t| hop.state(t).1));
-        let stops = [turn, Some(now)];
+        let turns = old.1 * new.1 < 0.0;
+        let turn = turns.then(|| bisect(before, now, |t| hop.state(t).1));
         let mut low = before;
-        for stop in stops.into_iter().flatten() {
+        for stop in turn.into_iter().chain([now]) {
             let (z, _) = hop.state(stop);
             if z >= 1.0 {
-                let at = super::bisect(low, stop, |t| hop.state(t).0 - 1.0);
+                let at = bisect(low, stop, |t| hop.state(t).0 - 1.0);
                 return Next::Overturned(at);
             }
             clear |= z > ROUNDING;
             if z < 0.0 && clear {
-                let at = super::bisect(low, stop, |t| hop.state(t).0);
+                let at = bisect(low, stop, |t| hop.state(t).0);
                 return Next::Impact(at, hop.state(at).1.abs());
             }
             low = stop;
@@ -152,10 +146,6 @@ fn next(hop: &LinearHop, end: f64) -> Next {
         (before, old) = (now, new);
     }
     Next::Reached(old)
-}
-
-fn inside(t: f64, kinks: &[f64], piece: usize) -> f64 {
-    t + 1e-9 * (kinks[piece + 1] - kinks[piece])
 }
 
 fn uplift(pulse: PulseKind, kinks: &[f64]) -> Option<(usize, f64)> {
@@ -168,8 +158,7 @@ fn uplift(pulse: PulseKind, kinks: &[f64]) -> Option<(usize, f64)> {
         let at = |k: usize| start + (end - start) * k as f64 / POINTS as f64;
         for k in 1..POINTS {
             if over(at(k)) > 0.0 {
-                let t = super::bisect(at(k - 1), at(k), over);
-                return Some((piece, t));
+                return Some((piece, bisect(at(k - 1), at(k), over)));
             }
         }
     }

@@ -30,7 +30,7 @@ pub struct SquareState {
     pub w: f64,
 }
 
-/// What the block does from rest at t = 0.
+/// Motion of the block from rest at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SquareMotion {
     /// Times and speeds just before each impact during the wave.
@@ -89,13 +89,12 @@ impl SquareHop {
     /// Time until u, passed inwards or outwards; infinite where it is not
     /// ahead.
     fn until(&self, u: f64, inward: bool) -> f64 {
-        let behind = self.turns() && (u > 0.0) != (self.u > 0.0);
-        let beyond = self.turns() && {
-            let s = libm::sin(u);
-            s * s + self.kappa < 0.0
-        };
-        let against = !self.turns() && inward != self.inward;
-        if behind || beyond || against {
+        let s = libm::sin(u);
+        let behind = (u > 0.0) != (self.u > 0.0);
+        let beyond = s * s + self.kappa < 0.0;
+        let against = inward != self.inward;
+        let missed = if self.turns() { behind || beyond } else { against };
+        if missed {
             return f64::INFINITY;
         }
         self.clock(u, inward) - self.clock(self.u, self.inward)
@@ -111,8 +110,8 @@ impl SquareHop {
         } else {
             bisect(low, FRAC_PI_2, |u| self.reach(u) - clock.abs())
         };
-        // Before the clock's zero a turning hop comes, then it goes; one
-        // that passes u = 0 changes the sign of u there.
+        // A turning hop approaches until the clock's zero, then goes away;
+        // a hop that passes u = 0 changes the sign of u there.
         let (sign, inward) = if self.turns() {
             (self.u.signum(), (self.u > 0.0) == (clock > 0.0))
         } else if self.inward {
@@ -122,11 +121,8 @@ impl SquareHop {
         };
         let s = libm::sin(size);
         let speed = 2.0 * self.rate * (self.kappa + s * s).max(0.0).sqrt();
-        SquareState {
-            side,
-            y: self.turned - 2.0 * sign * size,
-            w: if inward { -speed } else { speed },
-        }
+        let w = if inward { -speed } else { speed };
+        SquareState { side, y: self.turned - 2.0 * sign * size, w }
     }
 }
 
@@ -143,8 +139,7 @@ impl SquareWave {
                 let hop = SquareHop::new(self.alpha_rad, pull, state);
                 let base = 0.5 * hop.turned;
                 let hit = hop.until(base, true);
-                // A hop that starts at the base and outwards is not there
-                // again at once.
+                // A hop that leaves the base does not meet it at once.
                 let ahead = hit > 0.0 && hit <= left;
                 if !ahead {
                     state = hop.after(state.side, left);
@@ -154,18 +149,15 @@ impl SquareWave {
                 let speed = 2.0 * hop.rate * (hop.kappa + s * s).sqrt();
                 left -= hit;
                 impacts.push((start + duration - left, speed));
-                state = SquareState {
-                    side: -state.side,
-                    y: 0.0,
-                    w: self.eta * speed,
-                };
+                let (side, w) = (-state.side, self.eta * speed);
+                state = SquareState { side, y: 0.0, w };
             }
             start += duration;
         }
         SquareMotion { impacts, end: state }
     }
 
-    /// What becomes of the block after the wave, by energy.
+    /// Outcome of the free motion after the wave, by energy.
     pub fn ending(&self, end: SquareState) -> Ending {
         let alpha = self.alpha_rad;
         // Above that of the base, and of the saddle above the base.
@@ -179,15 +171,12 @@ impl SquareWave {
             return Ending { passes, overturned: end.side, impact: None };
         }
         let again = self.eta * self.eta * above > saddle;
-        Ending {
-            passes,
-            overturned: if again { -end.side } else { 0.0 },
-            impact: Some((2.0 * above).sqrt()),
-        }
+        let overturned = if again { -end.side } else { 0.0 };
+        Ending { passes, overturned, impact: Some((2.0 * above).sqrt()) }
     }
 }
 
-/// Fate of free motion.
+/// Outcome of free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ending {
     /// The energy exceeds that of the saddle.

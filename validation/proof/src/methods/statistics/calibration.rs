@@ -1,9 +1,9 @@
-//! What tests, intervals and estimators do when the truth is known.
+//! Error rates of tests, intervals and estimators under a known truth.
 //!
-//! Every deviation is in units of its own standard error, which follows from
-//! the numbers of trials, ours and the reference's; half a unit of the last
-//! digit printed is taken off first. A case's bound is then a false-alarm
-//! rate and nothing else.
+//! Every deviation is in units of its standard error, which follows from the
+//! numbers of trials, ours and the reference's; half a unit of the last
+//! printed digit is subtracted first. The bound of a case is then just a
+//! false-alarm rate.
 
 use anyhow::{Result, bail};
 use libm::{exp, lgamma, log};
@@ -24,9 +24,9 @@ use rocking_statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 use super::truths::{Truth, divided, share};
 use crate::methods::method::{Context, Reply, WrongModel};
 
-/// Puts the mean of so many trials beside one from other trials (0: exactly
-/// known), and their deviation in standard errors, half a printed unit taken
-/// off.
+/// Puts the mean of our trials beside that of the reference's trials (0:
+/// exactly known), and their deviation in standard errors, less half a printed
+/// unit.
 fn put_mean(
     answer: &mut Reply,
     (name, [ours, due]): (&str, [f64; 2]),
@@ -39,19 +39,16 @@ fn put_mean(
     let off = (ours - due).abs() - rounding;
     let gap = (ours - due).signum() * off / error;
     answer.put(name, [ours], [due]);
-    answer.put(
-        "standardised-gap",
-        [if off <= 0.0 { 0.0 } else { gap }],
-        [0.0],
-    );
+    let gap = if off <= 0.0 { 0.0 } else { gap };
+    answer.put("standardised-gap", [gap], [0.0]);
 }
 
 /// Rejected shares of four tests.
 pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, level: f64,
-        /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
-        /// that are not given are not judged.
+        /// Rates of Lilliefors, Anderson-Darling, Cramer-von Mises and
+        /// Shapiro-Wilk; a list can be shorter.
         rates: Vec<f64>,
         /// Trials behind each rate, 0 for an exact one.
         reference: Vec<u64>,
@@ -82,8 +79,8 @@ pub fn rejection(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Share of the samples in which an interval covers the truth, or a test
-/// says what it says with a known probability.
+/// Share of the samples in which an interval covers the truth, or in which a
+/// test makes a decision of known probability.
 pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         truth: Truth, n: usize, trials: u64, procedure: String, rate: f64,
@@ -110,11 +107,13 @@ fn covers(
     values: &[f64],
 ) -> Result<bool> {
     let sample = || ExtendedSample::try_new(values);
+    let edge = || -> Vec<f64> {
+        values.iter().map(|y| 1.05 * exp(0.03 * y)).collect()
+    };
     Ok(match procedure {
         "notch" => {
-            let boxplot =
-                Boxplot::try_new(&sample()?, QuantileType::default())?;
-            boxplot.notch_low <= 0.0 && 0.0 <= boxplot.notch_high
+            let own = Boxplot::try_new(&sample()?, QuantileType::default())?;
+            own.notch_low <= 0.0 && 0.0 <= own.notch_high
         }
         "exact-interval" => {
             let found = median_interval(&sample()?, 0.95);
@@ -125,21 +124,13 @@ fn covers(
             let found = hodges_lehmann(&ratios)?;
             found.ratio.interval().is_some_and(|i| i.holds(1.0))
         }
-        // On the edge of equivalence the test says "equivalent" at its
-        // level.
-        "mean-equivalence" | "median-equivalence" => {
-            let ratios: Vec<f64> =
-                values.iter().map(|y| 1.05 * exp(0.03 * y)).collect();
-            let p = match procedure {
-                "mean-equivalence" => equivalence(&ratios, 0.05)?.p_value,
-                _ => sign_equivalence(&ratios, 0.05)?.p_value,
-            };
-            p < 0.05
+        // On the edge of equivalence the test finds it at its level.
+        "mean-equivalence" => equivalence(&edge(), 0.05)?.p_value < 0.05,
+        "median-equivalence" => {
+            sign_equivalence(&edge(), 0.05)?.p_value < 0.05
         }
         // The shift is the sample's smallest value, which is left out.
-        "smallest-value-as-shift" => {
-            rejects_above_the_smallest(wrong, values)?
-        }
+        "smallest-value-as-shift" => above_smallest(wrong, values)?,
         other => bail!("procedure {other}"),
     })
 }
@@ -150,30 +141,25 @@ const NULL_REPLICATES: u64 = 400;
 /// Whether the test with the smallest value as shift rejects at 5 %: by the
 /// null that the command simulates, or (wrong) by the table, or by the
 /// dispersion above the smallest value.
-fn rejects_above_the_smallest(
-    wrong: Option<WrongModel>,
-    values: &[f64],
-) -> Result<bool> {
+fn above_smallest(wrong: Option<WrongModel>, values: &[f64]) -> Result<bool> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let above = values.iter().filter(|x| **x > least);
     let logs: Vec<f64> = above.map(|x| log(x - least)).collect();
     let sample = Sample::try_new(&logs)?;
     let d = Statistic::try_new(&sample)?.d;
     if wrong == Some(WrongModel::KnownShift) {
-        let table =
-            LillieforsTable::embedded().critical_value(logs.len(), 0.05);
-        return Ok(d > table?.0);
+        let table = LillieforsTable::embedded();
+        return Ok(d > table.critical_value(logs.len(), 0.05)?.0);
     }
     let simulate = |values: &[f64]| {
         ShiftedNull::smallest_value(values, NULL_REPLICATES, 0)
     };
     let null = if wrong == Some(WrongModel::DispersionAboveTheSmallest) {
-        let beta =
-            (sample.sum_of_squares() / (logs.len() as f64 - 1.0)).sqrt();
         // A sample of just that dispersion.
-        let n = values.len();
-        let share = |i: usize| (i as f64 - 0.5) / n as f64;
-        let values = (1..=n).map(|i| exp(beta * normal::quantile(share(i))));
+        let variance = sample.sum_of_squares() / (logs.len() as f64 - 1.0);
+        let (beta, n) = (variance.sqrt(), values.len());
+        let score = |i| normal::quantile((i as f64 - 0.5) / n as f64);
+        let values = (1..=n).map(|i: usize| exp(beta * score(i)));
         simulate(&values.collect::<Vec<_>>())
     } else {
         simulate(values)
@@ -185,8 +171,8 @@ fn rejects_above_the_smallest(
 pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         dispersion: f64, n: usize, trials: u64, estimator: FitMethod,
-        /// Mean of the estimated dispersion over the true one; none where a
-        /// closed form gives it.
+        /// Mean of the estimated dispersion over the true one; none: by a
+        /// closed form.
         dispersion_ratio: Option<f64>,
         /// Mean of the estimated log-mean over the true dispersion.
         log_mean: f64,
@@ -202,11 +188,10 @@ pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
         Ok((own.dispersion() / dispersion, own.log_mean() / dispersion))
     })?;
     let known = || mean_of_deviation(n as f64, estimator);
-    let expected = dispersion_ratio.unwrap_or_else(known);
+    let ratio = dispersion_ratio.unwrap_or_else(known);
     let (ratios, means): (Vec<f64>, Vec<f64>) = fits.into_iter().unzip();
-    for (name, values, expected) in
-        [("dispersion", ratios, expected), ("log-mean", means, log_mean)]
-    {
+    let both = [("dispersion", ratios, ratio), ("log-mean", means, log_mean)];
+    for (name, values, expected) in both {
         let sample = Sample::try_new(&values)?;
         let variance = sample.sum_of_squares() / (trials as f64 - 1.0);
         let both = (name, [sample.mean(), expected]);

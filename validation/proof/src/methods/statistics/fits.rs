@@ -101,11 +101,8 @@ pub fn quantiles(context: &Context, answer: &mut Reply) -> Result<()> {
         /// Types 1 to 9.
         number: u8,
     }
-    let used = match (context.wrong, number) {
-        (Some(WrongModel::OtherQuantileType), 7) => 5,
-        (Some(WrongModel::OtherQuantileType), _) => 7,
-        (_, own) => own,
-    };
+    let other = if number == 7 { 5 } else { 7 };
+    let used = context.or(WrongModel::OtherQuantileType, other, number);
     let quantile_type = QuantileType::try_new(used)?;
     for n in ["1", "2", "10", "11"] {
         for row in QUANTILES.rows(n)? {
@@ -206,10 +203,8 @@ pub fn moments(context: &Context, answer: &mut Reply) -> Result<()> {
 /// p-value.
 pub fn two_samples(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; samples: Vec<Vec<f64>>);
-    let samples = samples
-        .iter()
-        .map(|values| ExtendedSample::try_new(values))
-        .collect::<Result<Vec<_>, _>>()?;
+    let samples = samples.iter().map(|values| ExtendedSample::try_new(values));
+    let samples = samples.collect::<Result<Vec<_>, _>>()?;
     for (i, a) in samples.iter().enumerate() {
         for b in &samples[i + 1..] {
             let found = kolmogorov_smirnov(a, b);
@@ -233,8 +228,7 @@ pub fn inversion(context: &Context, answer: &mut Reply) -> Result<()> {
         curve: Vec<(f64, f64)>,
         overturning: Option<f64>, levels: Vec<f64>,
     }
-    let mut vertices = curve.clone();
-    let mut overturning = overturning;
+    let (mut vertices, mut overturning) = (curve, overturning);
     if context.is(WrongModel::OverturningAsAnAngle)
         && let Some(im) = overturning.take()
     {
@@ -248,14 +242,11 @@ pub fn inversion(context: &Context, answer: &mut Reply) -> Result<()> {
         let level = context.or(WrongModel::OpenCrossings, above, level);
         let crossings = curve.crossings(level)?;
         answer.see("crossings", [crossings.all().len() as f64]);
-        for named in InversionRule::ALL {
-            let rule = match (context.wrong, named) {
-                (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
-                    InversionRule::First
-                }
-                _ => named,
-            };
-            answer.see(named.name(), [crossings.capacity(rule).im()]);
+        for rule in InversionRule::ALL {
+            let wrong = context.is(WrongModel::FirstForMedian);
+            let first = wrong && rule == InversionRule::Median;
+            let used = if first { InversionRule::First } else { rule };
+            answer.see(rule.name(), [crossings.capacity(used).im()]);
         }
     }
     Ok(())

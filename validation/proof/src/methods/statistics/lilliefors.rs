@@ -1,5 +1,7 @@
 //! Lilliefors' test: null distribution, table, published values, draws.
 
+use std::f64::consts::{LN_2, PI};
+
 use anyhow::{Context as _, Result, bail};
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution as _, StandardNormal};
@@ -25,9 +27,8 @@ pub fn null(context: &Context, answer: &mut Reply) -> Result<()> {
     let streams = Streams::new("case, lilliefors null", 0);
     let mut statistics = trials(replicates, |index| {
         let mut stream = streams.stream(index);
-        let z: Vec<f64> =
-            (0..n).map(|_| standard_normal(&mut stream)).collect();
-        let sample = Sample::try_new(&z)?;
+        let z = (0..n).map(|_| standard_normal(&mut stream));
+        let sample = Sample::try_new(&z.collect::<Vec<f64>>())?;
         let s = Statistic::try_new(&sample)?;
         Ok(match context.wrong {
             Some(WrongModel::UpperSideOnly) => s.d_plus,
@@ -74,9 +75,9 @@ pub fn largest(context: &Context, answer: &mut Reply) -> Result<()> {
         // k values at one place, the others at another, for the best k.
         let mut attained: f64 = 0.0;
         for k in 1..n {
-            let values: Vec<f64> =
-                (0..n).map(|i| f64::from(u8::from(i >= k))).collect();
-            let s = Statistic::try_new(&Sample::try_new(&values)?)?;
+            let values = (0..n).map(|i| f64::from(i >= k));
+            let sample = Sample::try_new(&values.collect::<Vec<f64>>())?;
+            let s = Statistic::try_new(&sample)?;
             let smaller = s.d_minus.min(s.d_plus);
             let d = context.or(WrongModel::UpperSideOnly, smaller, s.d);
             attained = attained.max(d);
@@ -95,13 +96,10 @@ pub fn mean(context: &Context, answer: &mut Reply) -> Result<()> {
         error: f64,
     }
     for n in n {
-        let ours = if context.is(WrongModel::PlainKolmogorov) {
-            // The mean of the fully specified distribution, for large n.
-            (0.5 * std::f64::consts::PI / n as f64).sqrt()
-                * std::f64::consts::LN_2
-        } else {
-            LillieforsTable::embedded().mean(n)?
-        };
+        // The mean of the fully specified distribution, for large n.
+        let known = (0.5 * PI / n as f64).sqrt() * LN_2;
+        let table = LillieforsTable::embedded().mean(n)?;
+        let ours = context.or(WrongModel::PlainKolmogorov, known, table);
         for row in MEANS.rows(&n.to_string())? {
             let [known, own] = row.numbers(1)?;
             let gap = (ours - known) / (own + error);
@@ -145,7 +143,7 @@ pub fn table(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Critical value between the sizes 50 and 100, 100 and 200, .. linear in n.
+/// Critical value, linear in n between the sizes of a usual table.
 fn linear_in_n(n: usize, level: f64) -> Result<f64> {
     let sizes = [4, 5, 6, 7, 8, 9, 10, 15, 20, 30, 50, 100, 200, 400, 900];
     let i = sizes.partition_point(|size| *size < n).clamp(1, sizes.len() - 1);
@@ -156,10 +154,10 @@ fn linear_in_n(n: usize, level: f64) -> Result<f64> {
     Ok(f64::mul_add(share, b - a, a))
 }
 
-/// True level of tests that use others' critical values.
+/// True level of tests that use published critical values.
 pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        /// Name of the source, for people.
+        /// Names of the sources.
         sources: Vec<String>,
         n: Vec<usize>, values: Vec<f64>,
     }
@@ -184,31 +182,21 @@ pub fn published(context: &Context, answer: &mut Reply) -> Result<()> {
 /// least squares, and the largest residual in standard errors.
 pub fn asymptotics(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; levels: Vec<f64>, least_n: usize);
-    let sizes: Vec<usize> = LillieforsTable::sizes()
-        .into_iter()
-        .map(|(n, _)| n)
-        .filter(|n| *n >= least_n)
-        .collect();
+    let sizes = LillieforsTable::sizes().into_iter().map(|(n, _)| n);
+    let sizes: Vec<usize> = sizes.filter(|n| *n >= least_n).collect();
     let terms = context.or(WrongModel::TwoTerms, 2, 3);
     for level in levels {
-        let known: Vec<(f64, f64)> = sizes
-            .iter()
-            .map(|n| LillieforsTable::embedded().critical_value(*n, level))
-            .collect::<Result<_, _>>()?;
+        let table = LillieforsTable::embedded();
+        let known = sizes.iter().map(|n| table.critical_value(*n, level));
+        let known = known.collect::<Result<Vec<(f64, f64)>, _>>()?;
         let row = |i: usize, k: usize| {
             let root = (sizes[i] as f64).sqrt();
-            let term = match k {
-                0 => 1.0 / root,
-                1 => -1.0 / (root * root),
-                _ => -1.0 / (root * root * root),
-            };
-            term / known[i].1
+            let terms = [root, -(root * root), -(root * root * root)];
+            1.0 / terms[k] / known[i].1
         };
         let matrix = DMatrix::from_fn(sizes.len(), terms, row);
-        let right = DVector::from_iterator(
-            sizes.len(),
-            known.iter().map(|(value, error)| value / error),
-        );
+        let right = known.iter().map(|(value, error)| value / error);
+        let right = DVector::from_iterator(sizes.len(), right);
         let factors = matrix.clone().qr();
         let coefficients = factors
             .r()

@@ -32,11 +32,8 @@ pub fn annual_frequency(context: &Context, answer: &mut Reply) -> Result<()> {
         let unshifted = Lognormal::try_new(0.0, log(right.median()), beta)?;
         let fragility = context.or(WrongModel::WithoutShift, unshifted, right);
         let found = hazard.annual_frequency(fragility);
-        let least = context.or(
-            WrongModel::NothingBeyond,
-            found.covered,
-            found.truncation_lower,
-        );
+        let (covered_only, right) = (found.covered, found.truncation_lower);
+        let least = context.or(WrongModel::NothingBeyond, covered_only, right);
         answer.put("at-least", [least], [low]);
         answer.put("at-most", [found.truncation_upper], [high]);
         // A difference, of numbers below `high`.
@@ -61,8 +58,8 @@ pub fn total(context: &Context, answer: &mut Reply) -> Result<()> {
             // The part above the onset alone has the larger dispersion.
             let above = Lognormal::try_new(shift, mu, libm::hypot(beta, s))?;
             let above = above.scaled(bias)?.into();
-            let model =
-                context.or(WrongModel::ErrorAboveTheShift, above, right);
+            let wrong = WrongModel::ErrorAboveTheShift;
+            let model = context.or(wrong, above, right);
             let found = match what {
                 "cdf" => model.cdf(x),
                 "quantile" => model.quantile(x),
@@ -130,19 +127,18 @@ pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
     let (how, range) = (Resampling::Bootstrap, Range::Real);
     for score in scores {
         let x = shift + exp(ln_median + dispersion * score);
-        let column: Vec<f64> = fits
-            .iter()
-            .map(|fit| fit.map_or(f64::NAN, |fit| fit.score(x)))
-            .collect();
-        let drawn =
-            records.estimate(whole.score(x), &column, how, range, LEVEL);
+        let score =
+            |fit: &Option<Lognormal>| fit.map_or(f64::NAN, |fit| fit.score(x));
+        let column: Vec<f64> = fits.iter().map(score).collect();
+        let point = whole.score(x);
+        let drawn = records.estimate(point, &column, how, range, LEVEL);
         let (low, high) = drawn.context("no interval")?.estimate.ends();
         let wide = normal::quantile(0.5 * (1.0 + LEVEL));
         let known = 2.0 * wide / (n as f64).sqrt();
         let delta = whole.estimate_of_cdf(n, x, LEVEL);
         let ends = delta.map(normal::quantile).ends();
-        let found =
-            context.or(WrongModel::KnownDispersion, known, ends.1 - ends.0);
+        let (wrong, width) = (WrongModel::KnownDispersion, ends.1 - ends.0);
+        let found = context.or(wrong, known, width);
         answer.put("width", [found], [high - low]);
     }
     Ok(())

@@ -1,7 +1,7 @@
-//! Shaking-table tests that are made up: numbers of another package, and
-//! intervals where the truth is known.
+//! Synthetic shaking-table tests: numbers of another package, and coverage of
+//! intervals under a known truth.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use libm::{exp, log, tan};
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -11,8 +11,8 @@ use rocking_procedures::shaking::{
     ComputedTests, Slenderness, TestComparison, TestOptions, TestResult,
 };
 use rocking_records::intensity::IntensityMeasure;
+use rocking_statistics::Estimate;
 use rocking_statistics::streams::{Streams, standard_normal};
-use rocking_statistics::{Estimate, Interval};
 
 use super::truths::{share, trials};
 use crate::methods::cells::{Csv, CsvRow};
@@ -42,26 +42,41 @@ fn compared(
     Ok(all.compare()?)
 }
 
+/// A test whose block overturns at some level; PGA is its first measure.
+fn result(
+    [test, motion]: [String; 2],
+    capacity_factor: f64,
+    [overturns_at_level, overturned]: [bool; 2],
+    intensities: Vec<f64>,
+) -> TestResult {
+    TestResult {
+        test,
+        motion,
+        pga_g: intensities[0],
+        capacity_factor,
+        overturns: true,
+        overturns_at_level,
+        overturned,
+        intensities,
+        probability: f64::NAN,
+    }
+}
+
 /// The numbers of statsmodels and SciPy.
 pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
     let alone = context.is(WrongModel::TestsAsUnit);
     for row in VALUES.rows("tests")? {
         let set = row.text(1);
         let names: Vec<&str> = row.text(2).split(' ').collect();
-        let [pga, factors, at_level, fates, cav] =
-            [3, 4, 5, 6, 7].map(|column| row.list(column, ' '));
-        let (pga, factors, cav) = (pga?, factors?, cav?);
-        let (at_level, fates) = (at_level?, fates?);
-        let test = |i: usize| TestResult {
-            test: i.to_string(),
-            motion: if alone { i.to_string() } else { names[i].to_owned() },
-            pga_g: pga[i],
-            capacity_factor: factors[i],
-            overturns: true,
-            overturns_at_level: at_level[i] > 0.5,
-            overturned: fates[i] > 0.5,
-            intensities: vec![pga[i], cav[i]],
-            probability: f64::NAN,
+        let list = |column| row.list(column, ' ');
+        let (pga, factors, cav) = (list(3)?, list(4)?, list(7)?);
+        let (at_level, fates) = (list(5)?, list(6)?);
+        let test = |i: usize| {
+            let test = i.to_string();
+            let motion = if alone { &test } else { names[i] }.to_owned();
+            let overturns = [at_level[i], fates[i]].map(|x| x > 0.5);
+            let measures = vec![pga[i], cav[i]];
+            result([test, motion], factors[i], overturns, measures)
         };
         let measures = vec!["pga".parse()?, "cav".parse()?];
         let tests = (0..names.len()).map(test).collect();
@@ -70,20 +85,18 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
         let predictors = std::iter::once(&found.computed).chain(&found.rivals);
         for own in predictors {
             let row = VALUES.row(&["predictor", set, &own.predictor])?;
-            let [right, median, dispersion, auc, score, likelihood] =
-                row.list(3, ' ')?[..]
-            else {
-                bail!("{}: expected six numbers", own.predictor);
-            };
-            let fit = [
-                own.median.value(),
-                own.dispersion.value(),
-                own.log_likelihood,
-            ];
-            answer.put("fit", fit, [median, dispersion, likelihood]);
-            answer.put("right", [own.right.value()], [right]);
-            answer.put("auc", [own.auc.value()], [auc]);
-            answer.put("log-score", [own.log_score.value()], [score]);
+            let due = row.list(3, ' ')?;
+            ensure!(due.len() == 6, "{}: expected six numbers", own.predictor);
+            for (name, k, seen) in [
+                ("fit", 1, own.median.value()),
+                ("fit", 2, own.dispersion.value()),
+                ("fit", 5, own.log_likelihood),
+                ("right", 0, own.right.value()),
+                ("auc", 3, own.auc.value()),
+                ("log-score", 4, own.log_score.value()),
+            ] {
+                answer.put(name, [seen], [due[k]]);
+            }
         }
         for own in &found.distributions {
             let seen = [
@@ -109,29 +122,21 @@ pub fn other_packages(context: &Context, answer: &mut Reply) -> Result<()> {
         let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
         row.put(answer, 3, &[("within-motions", or_nan(own.dispersion))])?;
         let own = &found.resurrected;
-        let seen = [
-            own.tests as f64,
-            own.overturned as f64,
-            or_nan(own.expected),
-            own.right_at_level,
-        ];
+        let counts = [own.tests, own.overturned].map(|count| count as f64);
+        let shares = [or_nan(own.expected), own.right_at_level];
+        let seen = [counts, shares].concat();
         put(answer, &["resurrected", set], &seen)?;
         let own = &found.onset;
-        let seen = [
-            own.tests as f64,
-            own.overturned_below as f64,
-            own.below as f64,
-            or_nan(own.whole),
-            or_nan(own.above),
-            or_nan(own.pga_unshifted),
-        ];
+        let counts = [own.tests, own.overturned_below, own.below];
+        let scores = [own.whole, own.above, own.pga_unshifted].map(or_nan);
+        let seen = [counts.map(|count| count as f64), scores].concat();
         let row = put(answer, &["onset", set], &seen)?;
         row.put(answer, 3, &[("shifted", or_nan(own.pga_shifted))])?;
     }
     Ok(())
 }
 
-/// Puts what was seen beside the numbers of the row that begins so.
+/// Puts the observed numbers beside those of the row with these first fields.
 fn put(answer: &mut Reply, first: &[&str], seen: &[f64]) -> Result<CsvRow> {
     let row = VALUES.row(first)?;
     let due = row.list(first.len(), ' ')?;
@@ -153,12 +158,13 @@ const DISPERSION: f64 = 0.3;
 /// Levels of each motion in g.
 const LEVELS_G: [f64; 5] = [0.22, 0.32, 0.44, 0.6, 0.85];
 
-/// A number and whether its interval holds the truth.
+/// A name, an estimate over the truth, and whether its interval holds the
+/// truth.
 type Held = (&'static str, f64, bool);
 
-/// Shares of simulated sets of tests whose 90 % intervals hold the truth,
-/// and the mean of what is estimated; `fragilities` compares the fragilities
-/// in PGA as well.
+/// Shares of simulated sets of tests whose 90 % intervals hold the truth, and
+/// the means of the estimates; `fragilities` also compares the fragilities in
+/// PGA.
 ///
 /// ln of measured over computed capacity of a test is ln 1.1 + 0.26 u_g +
 /// 0.15 e with standard normal u of its motion and e of its own.
@@ -169,10 +175,7 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     let name = format!("cases/{}", context.case.id);
     let streams = Streams::new(&name, 0);
     let total = (SHARED * SHARED + OWN * OWN).sqrt();
-    let measures = match fragilities {
-        true => vec![IntensityMeasure::PGA],
-        false => Vec::new(),
-    };
+    let measures = vec![IntensityMeasure::PGA; usize::from(fragilities)];
     let trial = |index: u64| -> Result<Vec<Held>> {
         let mut stream = streams.stream(index);
         let mut normal = || standard_normal(&mut stream);
@@ -186,24 +189,19 @@ pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
                 let test = tests.len().to_string();
                 let motion = motion.to_string();
                 let wrong = WrongModel::TestsAsUnit;
-                tests.push(TestResult {
-                    motion: context.or(wrong, test.clone(), motion),
-                    test,
-                    pga_g,
-                    capacity_factor: capacity_g / pga_g,
-                    overturns: true,
-                    overturns_at_level: capacity_g <= pga_g,
-                    overturned: measured_g <= pga_g,
-                    intensities: vec![pga_g; measures.len()],
-                    probability: f64::NAN,
-                });
+                let motion = context.or(wrong, test.clone(), motion);
+                let factor = capacity_g / pga_g;
+                let overturns = [capacity_g, measured_g].map(|x| x <= pga_g);
+                let mut own =
+                    result([test, motion], factor, overturns, vec![pga_g]);
+                own.intensities.truncate(measures.len());
+                tests.push(own);
             }
         }
         let draws = Draws { replicates, seed: index };
         let found = compared(tests, measures.clone(), draws)?;
         let of = |name, estimate: Estimate, truth: f64| {
-            let holds = |ends: Interval| ends.holds(truth);
-            let held = estimate.interval().is_some_and(holds);
+            let held = estimate.interval().is_some_and(|i| i.holds(truth));
             (name, estimate.value() / truth, held)
         };
         let mut all = vec![

@@ -18,7 +18,6 @@ mod forces;
 mod hard;
 mod intensity;
 mod invariance;
-mod memo;
 mod precise;
 #[cfg(not(target_family = "wasm"))]
 pub mod published;
@@ -26,7 +25,6 @@ mod response;
 #[cfg(not(target_family = "wasm"))]
 mod scored;
 mod solution;
-mod spectrum;
 mod squares;
 mod statistics;
 mod trials;
@@ -54,7 +52,7 @@ const METHODS: &[Method] = &[
     ("rectangular-pulse", response::rectangular_pulse),
     ("square-waves", squares::chained),
     ("fates-after-square-waves", squares::exclusions),
-    ("overturning-edges", spectrum::edges),
+    ("overturning-edges", edges::spectrum),
     ("free-rocking-grid", closed_forms::free),
     ("linear-pulse-grid", closed_forms::pulses),
     ("critical-amplitudes", closed_forms::critical),

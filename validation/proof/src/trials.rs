@@ -8,7 +8,6 @@
 mod compare;
 mod draw;
 mod ends;
-mod first_hop;
 mod grazing;
 mod random;
 mod records;
@@ -73,7 +72,7 @@ pub fn trial(stratum: Stratum, index: u64) -> EngineResult<Option<Trial>> {
         Stratum::Grazing => grazing::grazing(&mut draw, index)?,
         Stratum::Ending => ends::ending(&mut draw, index)?,
         Stratum::Touching => ends::touching(&mut draw, index),
-        Stratum::FirstHop => first_hop::first_hop(&mut draw)?,
+        Stratum::FirstHop => grazing::first_hop(&mut draw)?,
     };
     Ok(found.map(|(kind, scene)| Trial {
         name: format!("{}:{index} {kind}", stratum.name()),

@@ -31,15 +31,15 @@ pub struct Family {
     pub title: String,
     /// Kind of evidence.
     pub kind: EvidenceKind,
-    /// What every case of the file inherits.
+    /// Defaults of every case of the file.
     #[serde(default)]
     pub default: toml::Table,
-    /// What the cases of a method inherit beside that.
+    /// Defaults of the cases of a method.
     #[serde(default)]
     pub method: BTreeMap<String, toml::Table>,
 }
 
-/// Where a claim comes from.
+/// Source of a claim.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseSource {
@@ -48,12 +48,12 @@ pub struct CaseSource {
     /// Equation, table or section.
     #[serde(rename = "where")]
     pub place: String,
-    /// Anything a reader must know.
+    /// A note for readers.
     #[serde(default)]
     pub note: String,
 }
 
-/// When a case is run.
+/// Runs that include a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cost {
@@ -87,7 +87,7 @@ named! {
     }
 }
 
-/// What is expected.
+/// Expected values.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
@@ -95,8 +95,7 @@ pub struct Expect {
     pub oracle: OracleKind,
     /// File or module the values come from.
     pub origin: String,
-    /// Values written in the case itself, by quantity; quantities that the
-    /// method takes from its origin are absent here.
+    /// Values that the case lists, by quantity; the method gives the others.
     #[serde(default)]
     pub values: BTreeMap<String, Values>,
 }
@@ -121,7 +120,7 @@ impl Values {
     }
 }
 
-/// How far a quantity may be from what is expected.
+/// Allowed distance of a quantity from its expected value.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Bound {
@@ -139,30 +138,16 @@ pub enum Bound {
     Waived(String),
 }
 
-impl Bound {
-    /// The name as it stands in case files.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Absolute(_) => "absolute",
-            Self::Relative(_) => "relative",
-            Self::Interval(..) => "interval",
-            Self::Order(_) => "order",
-            Self::Waived(_) => "waived",
-        }
-    }
-}
-
-/// Why a bound is what it is.
+/// Origin of a bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToleranceBasis {
-    /// 100 times what a careful double-precision code reached, and never
-    /// less than 1e-13.
+    /// 100 times the error of a careful double-precision code, but at least
+    /// 1e-13.
     AttainableFloat64,
     /// Rounding of the evaluated formula times its condition number.
     Conditioning,
-    /// The same bits are due.
+    /// The bits must be equal.
     Identity,
     /// Digits printed by the source.
     ReferenceRounding,
@@ -178,17 +163,17 @@ pub enum ToleranceBasis {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
-    /// Where the bounds come from.
+    /// Origin of the bounds.
     pub basis: ToleranceBasis,
-    /// Why they are right, in words.
+    /// The reason for the bounds.
     pub because: String,
     /// Bound of each quantity.
     pub bounds: BTreeMap<String, Bound>,
     /// Wrong models that must fail the case.
     #[serde(default)]
     pub reject: Vec<WrongModel>,
-    /// Bound, of the same kind, at which the naive integrator with right
-    /// rules passes; required where a wrong algorithm is rejected.
+    /// Bound, of the same kind, at which the naive integrator with correct
+    /// rules passes; required if a wrong algorithm is rejected.
     #[serde(default)]
     pub naive: Option<f64>,
 }
@@ -197,25 +182,25 @@ pub struct Tolerance {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// `family/name`; in the file the name alone.
+    /// `family/name`; in the file only the name.
     #[serde(rename = "name")]
     pub id: String,
     /// Name of the family; not in the file.
     pub family: String,
     /// Kind of evidence, from the family; not in the file.
     pub kind: EvidenceKind,
-    /// What is claimed.
+    /// The claim.
     pub claim: String,
-    /// Where it comes from.
+    /// Source of the claim.
     pub source: CaseSource,
     /// Name of the registered method.
     pub method: String,
-    /// When it is run.
+    /// Runs that include it.
     pub cost: Cost,
     /// Input of the method.
     #[serde(default)]
     pub input: toml::Table,
-    /// What is expected.
+    /// Expected values.
     pub expect: Expect,
     /// Tolerances.
     pub tolerance: Tolerance,

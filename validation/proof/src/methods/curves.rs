@@ -1,4 +1,4 @@
-//! Which analyses of a curve are flagged: scenes that graze, as levels of an
+//! Flags of the analyses of a curve: grazing scenes as levels of an
 //! incremental dynamic analysis.
 
 use anyhow::{Context as _, Result};
@@ -13,8 +13,7 @@ use rocking::integrator::{
 };
 use rocking::number::Real as _;
 
-use super::memo::Memo;
-use super::method::{Context, Reply, WrongModel};
+use super::method::{Context, Memo, Reply, WrongModel};
 use crate::scene::Forcing;
 use crate::trials::{Stratum, WORK, WideTruth, trial, truth};
 
@@ -24,7 +23,7 @@ const ANOTHER: f64 = 1e-6;
 /// Rough estimate from which on an analysis is flagged.
 const FLAGGED: f64 = 2.5e-3;
 
-/// A level in every way in which it is analysed.
+/// A level by every analysis.
 #[derive(Clone)]
 struct LevelResult {
     alone: IdaPoint,
@@ -41,7 +40,7 @@ struct LevelResult {
 /// Levels by the number of scenes.
 static FOUND: Memo<u64, LevelResult> = Memo::new();
 
-/// Peaks and fates that a curve calls resolved and that are others in wider
+/// Peaks and outcomes that a curve calls resolved but that differ in wider
 /// arithmetic; levels at which the lanes give another result.
 pub fn first_hops(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
@@ -54,41 +53,43 @@ pub fn first_hops(context: &Context, answer: &mut Reply) -> Result<()> {
         Ok(all.into_iter().flatten().collect())
     })?;
     let at_landing = context.is(WrongModel::RoundingAtTheLanding);
-    let resolved = |level: &LevelResult, point: &IdaPoint| {
-        if at_landing {
-            level.at_landing < FLAGGED
-        } else {
-            point.resolution.resolved
-        }
-    };
-    let count = |is: &dyn Fn(&LevelResult) -> bool| {
-        [found.iter().filter(|level| is(level)).count() as f64]
-    };
+    let resolved = |point: &IdaPoint| point.resolution.resolved;
     let silent = |level: &LevelResult, point: &IdaPoint| {
-        resolved(level, point) && level.is_other(point, ANOTHER)
+        let rough = level.at_landing < FLAGGED;
+        let resolved = if at_landing { rough } else { resolved(point) };
+        resolved && level.is_other(point, ANOTHER)
     };
-    let alone = count(&|level| silent(level, &level.alone));
-    answer.put("wrong-and-resolved", alone, [0.0]);
-    let lanes = count(&|level| silent(level, &level.lanes));
-    answer.put("wrong-and-resolved-in-lanes", lanes, [0.0]);
-    let certified = count(&|level| {
-        level.certified.resolution.resolved
-            && level.is_other(&level.certified, level.error)
-    });
-    answer.put("wrong-and-certified", certified, [0.0]);
-    let differ = count(&|level| level.alone != level.lanes);
-    answer.put("levels-that-lanes-change", differ, [0.0]);
-    answer.see("levels", [found.len() as f64]);
-    answer.see("wrong", count(&|level| level.is_other(&level.alone, ANOTHER)));
-    answer.see("unresolved", count(&|level| !level.alone.resolution.resolved));
-    let open = count(&|level| !level.certified.resolution.resolved);
-    answer.see("unresolved-when-certified", open);
+    let certified = |level: &LevelResult| {
+        let point = &level.certified;
+        resolved(point) && level.is_other(point, level.error)
+    };
+    type Is<'a> = &'a dyn Fn(&LevelResult) -> bool;
+    let mut count = |name: &str, is: Is<'_>| {
+        let count = found.iter().filter(|level| is(level)).count();
+        answer.see(name, [count as f64]);
+    };
+    count("wrong-and-resolved", &|l| silent(l, &l.alone));
+    count("wrong-and-resolved-in-lanes", &|l| silent(l, &l.lanes));
+    count("wrong-and-certified", &certified);
+    count("levels-that-lanes-change", &|l| l.alone != l.lanes);
+    count("levels", &|_| true);
+    count("wrong", &|l| l.is_other(&l.alone, ANOTHER));
+    count("unresolved", &|l| !resolved(&l.alone));
+    count("unresolved-when-certified", &|l| !resolved(&l.certified));
+    for never in [
+        "wrong-and-resolved",
+        "wrong-and-resolved-in-lanes",
+        "wrong-and-certified",
+        "levels-that-lanes-change",
+    ] {
+        answer.put(never, [], [0.0]);
+    }
     Ok(())
 }
 
 impl LevelResult {
-    /// Whether a point's fate is another in wider arithmetic, or its peak by
-    /// more than so much.
+    /// True if the outcome of a point differs in wider arithmetic, or its peak
+    /// by more than `error`.
     fn is_other(&self, point: &IdaPoint, error: f64) -> bool {
         let own = &point.outcome;
         match self.truth {
@@ -144,7 +145,7 @@ fn level(index: u64) -> Result<Option<LevelResult>> {
     let truth = truth(&scene, None)?;
     let options = Certify { work_limit: WORK, ..Certify::default() };
     let error = certify(&scene, &options)?.error;
-    // A level that is not assessed is as good as one that is not flagged.
+    // A level without an error bound counts as one that is not flagged.
     let error = error.unwrap_or(0.0).max(ANOTHER);
     let at_landing = at_landing(&scene, of.restitution, &record)?;
     Ok(Some(LevelResult { alone, lanes, certified, error, truth, at_landing }))
@@ -161,17 +162,17 @@ fn at_landing(
     let run = integrator::respond(scene, &observe)?;
     let solver = Solver { peak_only: true, ..Solver::default() };
     let quick = solver.respond(scene, &Observe::default())?;
-    let (alpha, p) =
-        (scene.block.slenderness_rad(), scene.block.frequency_rad_s());
-    let threshold = uplift_threshold(&scene.block, scene.model);
+    let block = scene.block;
+    let (alpha, p) = (block.slenderness_rad(), block.frequency_rad_s());
+    let threshold = uplift_threshold(&block, scene.model);
     let (dt_s, samples) = (record.dt_s(), record.samples());
     let pga_g = record.pga_g();
     let end_s = dt_s * (samples.len() - 1) as f64;
     let mut seen = 0;
     let ground = |time_s: f64| {
         let at = time_s / dt_s;
-        let [a, b] = [0, 1].map(|k| samples.get(at as usize + k).copied());
-        let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
+        let sample = |k| samples.get(at as usize + k).copied();
+        let [a, b] = [0, 1].map(|k| sample(k).unwrap_or(0.0));
         pga_g * (a + (b - a) * at.fract())
     };
     let lifts = |from_s: f64| {
@@ -187,7 +188,8 @@ fn at_landing(
         if *time_s < began_s {
             continue;
         }
-        // What is left to free motion or cannot raise the peak is not seen.
+        // The quick run leaves out free motion, and impacts that cannot raise
+        // the peak.
         if *time_s > end_s || seen == quick.work.impacts {
             break;
         }

@@ -5,24 +5,25 @@ use anyhow::{Context as _, Result};
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::method::{Context, Reply, pairs};
+use super::method::{Context, Reply, WrongModel, pairs};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
+use crate::references::{Decimal, ImpactBand, SPECTRUM, SpectrumRow};
 use crate::scene::{
     CaseScene, Forcing, Model, Overturning, PulseName, Trace, by_equation,
 };
 
 /// A property of every run above an edge and of none below it.
-pub(super) type Flip = fn(&Trace) -> bool;
+type Flip = fn(&Trace) -> bool;
 
 /// The block overturns without an impact; below, it does not, or does so
 /// after an impact.
 pub(super) const WITHOUT_IMPACT: Flip =
     |trace| trace.overturned_s.is_some() && trace.impacts.is_empty();
 /// The block overturns.
-pub(super) const OVERTURNS: Flip = |trace| trace.overturned_s.is_some();
+const OVERTURNS: Flip = |trace| trace.overturned_s.is_some();
 /// The block stands.
-pub(super) const STANDS: Flip = |trace| trace.overturned_s.is_none();
+const STANDS: Flip = |trace| trace.overturned_s.is_none();
 
 /// An edge of Eq. 2 as cases name it.
 #[derive(Clone, Copy, Deserialize)]
@@ -44,19 +45,19 @@ impl Edge {
 }
 
 /// A one-sine pulse on a block.
-pub(super) struct OneSine {
-    pub equation: Model,
+struct OneSine {
+    equation: Model,
     /// alpha (rad), p (rad/s), g (m/s2).
-    pub block: [f64; 3],
+    block: [f64; 3],
     /// Frequency over p.
-    pub omega: f64,
-    pub eta: f64,
+    omega: f64,
+    eta: f64,
 }
 
 impl OneSine {
     /// The amplitude over the threshold at which the outcome changes within a
     /// range; not a number if it does not.
-    pub fn edge(
+    fn edge(
         &self,
         context: &Context,
         (criterion, flip): (Overturning, Flip),
@@ -188,4 +189,62 @@ pub fn restitution(context: &Context, answer: &mut Reply) -> Result<()> {
         answer.see("energy-loss", [1.0 - constant.energy_ratio()]);
     }
     Ok(())
+}
+
+/// Every edge at one frequency, found again by bisecting the engine's fate
+/// within 1e-6 of the reference.
+pub fn spectrum(context: &Context, answer: &mut Reply) -> Result<()> {
+    input! { context;
+        eta: f64, omega_over_p: f64,
+        /// Block: alpha (rad), p (rad/s), g (m/s2).
+        block: [f64; 3],
+    }
+    let is = |row: &&SpectrumRow| {
+        (row.eta.near, row.omega.near) == (eta, omega_over_p)
+    };
+    let found = SPECTRUM.read()?.cases.iter().rfind(is);
+    let row = found.ok_or_else(|| SPECTRUM.lacks("no such row"))?;
+    let (equation, omega) = (Model::Linearized, omega_over_p);
+    let pulse = OneSine { equation, block, omega, eta };
+    for (name, amplitude, (mut criterion, flip)) in table(row) {
+        if context.is(WrongModel::OtherCriterion) {
+            let alpha = criterion == Overturning::Alpha;
+            let criteria = [Overturning::Alpha, Overturning::HalfPi];
+            criterion = criteria[usize::from(alpha)];
+        }
+        let whole = [1.0, 3.0 * row.mode2_lower.near];
+        let near = around(amplitude, 1e-6);
+        let range = context.or(WrongModel::PlainBisection, whole, near);
+        let found = pulse.edge(context, (criterion, flip), range)?;
+        answer.put(&name, [found], [amplitude]);
+    }
+    Ok(())
+}
+
+/// Names, amplitudes and fates of the edges.
+fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
+    let mut edges = Vec::new();
+    let mut add = |name: &str, amplitude: Decimal, criterion, flip| {
+        edges.push((name.to_owned(), amplitude.near, (criterion, flip)));
+    };
+    let divergence = Overturning::HalfPi;
+    add("mode-2", row.mode2_lower, divergence, WITHOUT_IMPACT);
+    let first_sign = row.mode2_lower_alpha_criterion;
+    add("mode-2-alpha", first_sign, Overturning::Alpha, WITHOUT_IMPACT);
+    if let Some(lower) = row.mode1_lower {
+        add("mode-1-lower", lower, divergence, OVERTURNS);
+    }
+    // Without loss, mode 1 goes over into mode 2: no fate flips there.
+    if let Some(upper) = row.mode1_upper
+        && row.eta.near < 1.0
+    {
+        add("mode-1-upper", upper, divergence, STANDS);
+    }
+    for ImpactBand { n_impacts: n, lower, upper } in &row.multi_impact_bands {
+        let name = format!("{n}-impacts-lower");
+        add(&name, *lower, divergence, OVERTURNS);
+        let name = format!("{n}-impacts-upper");
+        add(&name, *upper, divergence, STANDS);
+    }
+    edges
 }

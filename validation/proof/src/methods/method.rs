@@ -1,6 +1,7 @@
-//! What a method works with, and what it answers.
+//! The input and the output of a method.
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Context as _, Result};
 use rocking::integrator::{HistoryPoint, Observe};
@@ -31,8 +32,8 @@ pub type Method = (&'static str, fn(&Context, &mut Reply) -> Result<()>);
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
 
-/// What a method observed, and what it expected where the case names a
-/// reference or an oracle instead of writing the values.
+/// The quantities that a method observed, and the expected values of those
+/// that the case does not list.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Reply {
     /// From the code under test.
@@ -42,8 +43,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Adds to the lists of a quantity: what was observed, and what is
-    /// expected of it.
+    /// Adds observed and expected values of a quantity.
     pub fn put(
         &mut self,
         name: &str,
@@ -54,7 +54,8 @@ impl Reply {
         self.expected.entry(name.to_owned()).or_default().extend(expected);
     }
 
-    /// Adds to what was observed of a quantity whose values the case writes.
+    /// Adds observed values of a quantity whose expected values the case
+    /// lists.
     pub fn see(
         &mut self,
         name: &str,
@@ -63,9 +64,9 @@ impl Reply {
         self.observed.entry(name.to_owned()).or_default().extend(observed);
     }
 
-    /// Adds impacts, as many as are listed: times times `rate`, and under
-    /// the name `speeds` the speeds before them over `unit`. A block that
-    /// goes on where it should not shows in its fate.
+    /// Adds as many impacts as are listed: times times `rate`, and under the
+    /// name `speeds` the speeds before them over `unit`. A surplus of impacts
+    /// shows in the outcome.
     pub fn put_impacts(
         &mut self,
         speeds: &str,
@@ -86,18 +87,18 @@ impl Reply {
 /// The usual name of the speeds before impacts.
 pub(super) const SPEEDS: &str = "impact-speeds";
 
-/// Every pair from two lists, the first of them slowest.
+/// Every pair from two lists, in the order of the first list.
 pub(super) fn pairs<A: Copy, B: Copy>(a: &[A], b: &[B]) -> Vec<(A, B)> {
     a.iter().flat_map(|a| b.iter().map(|b| (*a, *b))).collect()
 }
 
-/// What a method works with.
+/// The input of a method.
 pub struct Context<'a> {
     /// The case.
     pub case: &'a Case,
-    /// What answers scenes: the core, or a wrong model.
+    /// The engine: the core or a wrong model.
     pub engine: &'a dyn Engine,
-    /// The wrong model; the engine makes the mistake, or the method.
+    /// The wrong model; either the engine or the method makes its mistake.
     pub wrong: Option<WrongModel>,
 }
 
@@ -110,27 +111,25 @@ impl Context<'_> {
         input_of(self.case)
     }
 
-    /// Whether this is the mistake that is made.
+    /// True for the mistake of this run.
     pub(super) fn is(&self, wrong: WrongModel) -> bool {
         self.wrong == Some(wrong)
     }
 
-    /// `mistaken` where this is the mistake that is made, else `right`.
+    /// `mistaken` for the mistake of this run, else `right`.
     pub(super) fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
         if self.is(wrong) { mistaken } else { right }
     }
 
-    /// What is drawn anew: earthquakes, or records where these are mistaken
-    /// for the unit.
+    /// The units of resampling: earthquakes, or records by mistake.
     pub(super) fn drawn(&self, clusters: &Clusters) -> Clusters {
-        match self.is(WrongModel::RecordsAsUnit) {
-            true => Clusters::singletons(clusters.records()),
-            false => clusters.clone(),
-        }
+        let records = Clusters::singletons(clusters.records());
+        self.or(WrongModel::RecordsAsUnit, records, clusters.clone())
     }
 
-    /// The scene as the wrong model sees it, where that changes the input;
-    /// for methods that run the core themselves.
+    /// The scene with the mistake of a wrong model that alters the input; for
+    /// methods that run the core themselves.
+    #[must_use]
     pub fn altered(&self, scene: &CaseScene) -> CaseScene {
         let own = |wrong: WrongModel| wrong.altered(scene);
         self.wrong.map_or_else(|| scene.clone(), own)
@@ -148,8 +147,8 @@ impl Context<'_> {
             ..Observe::default()
         };
         let response = engine::respond(&self.altered(scene), &observe)?;
-        // A run that has ended before says so by what cannot be compared.
-        let (rotation_rad, velocity_rad_s) = (f64::NAN, f64::NAN);
+        // Nothing equals the state of a run that ended earlier.
+        let [rotation_rad, velocity_rad_s] = [f64::NAN; 2];
         let missing = HistoryPoint { time_s, rotation_rad, velocity_rad_s };
         Ok(response.history.get(1).copied().unwrap_or(missing))
     }
@@ -158,4 +157,30 @@ impl Context<'_> {
 pub(super) fn input_of<T: DeserializeOwned>(case: &Case) -> Result<T> {
     let table = toml::Value::Table(case.input.clone());
     table.try_into().context("input")
+}
+
+/// Lists by key: a wrong model that only reads them differently needs no run.
+pub(super) struct Memo<K, T>(Mutex<BTreeMap<K, Arc<Vec<T>>>>);
+
+impl<K: Ord, T> Memo<K, T> {
+    /// With nothing in it.
+    pub const fn new() -> Self {
+        Self(Mutex::new(BTreeMap::new()))
+    }
+
+    /// The list of a key, from memory if it was made before. Nothing is locked
+    /// while it is made: a thread that waits inside may take up another case.
+    pub fn get(
+        &self,
+        key: K,
+        make: impl FnOnce(&K) -> Result<Vec<T>>,
+    ) -> Result<Arc<Vec<T>>> {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = lock().get(&key) {
+            return Ok(Arc::clone(found));
+        }
+        let found = Arc::new(make(&key)?);
+        lock().insert(key, Arc::clone(&found));
+        Ok(found)
+    }
 }

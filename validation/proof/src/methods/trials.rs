@@ -2,8 +2,7 @@
 
 use serde::Deserialize;
 
-use super::memo::Memo;
-use super::method::{Context, Reply};
+use super::method::{Context, Memo, Reply};
 use crate::trials::{
     CertificateReading, Finding, SHARES, Stratum, TrialSummary, findings,
 };
@@ -19,19 +18,10 @@ struct Scenes {
     first: u64,
 }
 
-impl Scenes {
-    fn indices(&self) -> Result<Vec<u64>> {
-        let Self { count, first } = *self;
-        let end = first.checked_add(count);
-        let end = end.with_context(|| format!("{count} from {first}"))?;
-        Ok((first..end).collect())
-    }
-}
-
 /// Findings by stratum and indices.
 static FOUND: Memo<(Stratum, Vec<u64>), Finding> = Memo::new();
 
-/// Wrong fates and exceeded estimates of runs whose certificate is clear.
+/// Wrong outcomes and exceeded estimates of runs with a clear certificate.
 pub fn certificate(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Stratum: `ordinary`, `extreme` or `grazing`.
@@ -39,17 +29,19 @@ pub fn certificate(context: &Context, answer: &mut Reply) -> Result<()> {
         /// Which scenes.
         scenes: Scenes,
     }
-    let key = (kind, scenes.indices()?);
+    let Scenes { count, first } = scenes;
+    let end = first.checked_add(count);
+    let end = end.with_context(|| format!("{count} from {first}"))?;
+    let key = (kind, (first..end).collect());
     let make = |(kind, indices): &(_, Vec<_>)| Ok(findings(*kind, indices)?);
     let found = FOUND.get(key, make)?;
     let summary = TrialSummary::of(&found, CertificateReading(context.wrong));
-    for (name, count) in [
-        ("wrong-and-clear", summary.wrong_and_clear),
-        ("estimates-exceeded", summary.exceeded),
-    ] {
-        answer.put(name, [count as f64], [0.0]);
+    for never in ["wrong-and-clear", "estimates-exceeded"] {
+        answer.put(never, [], [0.0]);
     }
     let counts = [
+        ("wrong-and-clear", summary.wrong_and_clear as f64),
+        ("estimates-exceeded", summary.exceeded as f64),
         ("runs", summary.runs as f64),
         ("unresolved-share", summary.unresolved_share()),
         ("wrong-and-unresolved", summary.wrong_and_unresolved as f64),

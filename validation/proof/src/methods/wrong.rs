@@ -1,4 +1,4 @@
-//! How wrong models go wrong.
+//! The mistakes of the wrong models that engines make.
 
 use crate::cases::WrongModel;
 use crate::engine::Core;
@@ -6,32 +6,29 @@ use crate::naive::{Events, Naive, Rules};
 use crate::scene::{CaseScene, Engine, EngineResult, Trace, other};
 
 impl WrongModel {
-    /// Rules of the naive integrator, where it carries out the mistake.
+    /// Rules of the naive integrator, if it makes the mistake.
     fn rules(self) -> Option<Rules> {
-        let right = Rules::default();
-        Some(match self {
-            Self::SignOnlyEvents => {
-                Rules { events: Events::StepEnds, ..right }
-            }
-            Self::RotationKeptAtImpact => {
-                Rules { events: Events::StepEndsRotationKept, ..right }
-            }
+        let right = Events::Located;
+        let (events, wrong) = match self {
+            Self::SignOnlyEvents => (Events::StepEnds, None),
+            Self::RotationKeptAtImpact => (Events::StepEndsRotationKept, None),
             Self::MissedImpact
             | Self::CrudeRest
             | Self::SuppressedHop
             | Self::ZeroOrderHold
             | Self::OtherThreshold
-            | Self::StopsWithTheRecord => Rules { wrong: Some(self), ..right },
+            | Self::StopsWithTheRecord => (right, Some(self)),
             _ => return None,
-        })
+        };
+        Some(Rules { events, wrong, ..Rules::default() })
     }
 
-    /// Whether it runs on the naive integrator.
+    /// True if it runs on the naive integrator.
     pub fn is_naive(self) -> bool {
         self.rules().is_some()
     }
 
-    /// The scene with the mistake, where it is one of the input.
+    /// The scene with the mistake, if it is one of the input.
     pub fn altered(self, scene: &CaseScene) -> CaseScene {
         let mut scene = scene.clone();
         match self {
@@ -66,7 +63,7 @@ impl WrongModel {
     }
 }
 
-/// The engine that makes the mistake, where the method itself does not.
+/// The engine that makes the mistake, unless the method itself does.
 impl Engine for WrongModel {
     fn respond(&self, scene: &CaseScene) -> EngineResult<Trace> {
         match self.rules() {

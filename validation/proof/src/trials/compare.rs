@@ -66,19 +66,19 @@ impl CertificateReading {
         }
     }
 
-    /// Whether the run may be relied on.
+    /// True if the run can be relied on.
     pub fn is_clear(self, seen: &DoubleRun) -> bool {
-        let is = |wrong| self.0 == Some(wrong);
+        use Decision::{Contact, End, Overturning, Rest, Uplift};
         Decision::ALL.into_iter().all(|decision| {
-            let left_out = match decision {
-                Decision::Uplift | Decision::Contact | Decision::Rest => {
-                    is(WrongModel::WithoutBranches)
+            let left_out = match self.0 {
+                Some(WrongModel::WithoutBranches) => {
+                    matches!(decision, Uplift | Contact | Rest)
                 }
-                Decision::Overturning => {
-                    is(WrongModel::MarginInfinity) && seen.overturned
+                Some(WrongModel::MarginInfinity) => {
+                    decision == Overturning && seen.overturned
                 }
-                Decision::End => is(WrongModel::WithoutEnd),
-                Decision::Propagation => false,
+                Some(WrongModel::WithoutEnd) => decision == End,
+                _ => false,
             };
             let ratio = seen.certificate.of(decision).ratio / self.factor();
             left_out || ratio >= CLEARANCE
@@ -107,7 +107,7 @@ pub enum WideTruth {
     Undecided,
 }
 
-/// A trial with the run in double precision and the truth.
+/// A trial, its run in double precision and the truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Address and kind of the trial.
@@ -122,12 +122,11 @@ impl Finding {
     /// Error of the peak beyond the uncertainty of the truth; none if either
     /// has no peak.
     pub fn error(&self) -> Option<f64> {
-        let WideTruth::Stands { peak_ratio, error } = self.truth else {
+        let (WideTruth::Stands { peak_ratio, error }, false) =
+            (self.truth, self.seen.overturned)
+        else {
             return None;
         };
-        if self.seen.overturned {
-            return None;
-        }
         let difference = (wide(self.seen.peak_ratio) - peak_ratio).abs();
         let beyond = difference.to_f64() - error;
         // Not a number stays one.

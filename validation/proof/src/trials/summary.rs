@@ -1,20 +1,20 @@
-//! Findings counted.
+//! Counts of findings.
 
 use rocking::number::Real as _;
 
 use super::compare::{CertificateReading, Finding, WideTruth};
 
-/// What a finding says about a certificate.
+/// The verdict of a finding on a certificate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judgement {
-    /// The run says that it decides nothing; true where its fate is wrong.
+    /// The run leaves its outcome open; true if its outcome is wrong.
     Unresolved(bool),
     /// The run is clear and the truth is not known.
     Undecided,
-    /// The run is clear and its fate is wrong.
+    /// The run is clear and its outcome is wrong.
     WrongAndClear,
-    /// The run is clear and the error of its peak is so many times its
-    /// estimate, which is too much.
+    /// The run is clear and the error of its peak exceeds its estimate by this
+    /// factor.
     Exceeded(f64),
     /// The run is clear and the error of its peak is this share of its
     /// estimate.
@@ -35,24 +35,21 @@ impl Judgement {
             WideTruth::Overturned => Some(!seen.overturned),
             WideTruth::Undecided => None,
         };
-        if !reading.is_clear(&finding.seen) {
+        if !reading.is_clear(seen) {
             return Self::Unresolved(wrong == Some(true));
         }
         match wrong {
             None => Self::Undecided,
             Some(true) => Self::WrongAndClear,
             Some(false) => finding.error().map_or(Self::Right, |error| {
-                let ratio = error / reading.estimate(&finding.seen);
-                if ratio <= 1.0 {
-                    Self::Within(ratio)
-                } else {
-                    Self::Exceeded(ratio)
-                }
+                let ratio = error / reading.estimate(seen);
+                let held = ratio <= 1.0;
+                if held { Self::Within(ratio) } else { Self::Exceeded(ratio) }
             }),
         }
     }
 
-    /// True for what no certificate may do.
+    /// True for a failure of the certificate.
     pub fn is_bad(&self) -> bool {
         matches!(self, Self::WrongAndClear | Self::Exceeded(_))
     }
@@ -75,13 +72,13 @@ pub struct TrialSummary {
     pub runs: usize,
     /// Runs that are clear.
     pub clear: usize,
-    /// Runs that decide nothing.
+    /// Runs that leave their outcome open.
     pub unresolved: usize,
-    /// Of those, runs with the wrong fate.
+    /// Of those, runs with the wrong outcome.
     pub wrong_and_unresolved: usize,
-    /// Clear runs whose true fate is not known.
+    /// Clear runs whose true outcome is not known.
     pub undecided: usize,
-    /// Clear runs with the wrong fate.
+    /// Clear runs with the wrong outcome.
     pub wrong_and_clear: usize,
     /// Clear runs whose error of the peak exceeds its estimate.
     pub exceeded: usize,
@@ -114,13 +111,13 @@ impl TrialSummary {
         all
     }
 
-    /// Share of the runs that decide nothing.
+    /// Share of the runs that leave their outcome open.
     pub fn unresolved_share(&self) -> f64 {
         self.unresolved as f64 / self.runs as f64
     }
 
-    /// Error over estimate below which this share lies, in thousandths; not
-    /// a number without any.
+    /// Quantile of error over estimate, at a share in thousandths; not a
+    /// number if there is none.
     pub fn ratio(&self, thousandths: usize) -> f64 {
         let last = self.ratios.len().saturating_sub(1);
         let at = (last * thousandths).div_ceil(1000);

@@ -96,21 +96,22 @@ fn entry(outcome: &CaseOutcome) -> CaseResult {
 fn quantity(check: &Check) -> QuantityResult {
     let digits = digits(check);
     let shown = check.observed.iter().take(MOST_VALUES);
+    let (kind, bound) = match &check.bound {
+        Bound::Exact => ("exact", json!(0)),
+        Bound::Absolute(x) => ("absolute", json::extended(*x)),
+        Bound::Relative(x) => ("relative", json::extended(*x)),
+        Bound::Order(x) => ("order", json::extended(*x)),
+        Bound::Interval(low, high) => {
+            ("interval", json!([low, high].map(|x| Extended(*x))))
+        }
+        Bound::Waived(_) => ("waived", Value::Null),
+    };
     QuantityResult {
-        bound: match &check.bound {
-            Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
-                json::extended(*x)
-            }
-            Bound::Interval(low, high) => {
-                json!([low, high].map(|x| Extended(*x)))
-            }
-            Bound::Waived(_) => Value::Null,
-            Bound::Exact => json!(0),
-        },
+        bound,
         first: shown.map(|x| Extended(rounded(*x, digits))).collect(),
-        kind: check.bound.kind().to_owned(),
-        // An error at the rounding level moves with every change of the
-        // code: its size is shown, not its digits.
+        kind: kind.to_owned(),
+        // An error at the level of rounding moves with every change of the
+        // code: only its size is shown.
         margin: Extended(rounded(check.margin, 1)),
         values: check.observed.len(),
     }

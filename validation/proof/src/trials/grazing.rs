@@ -4,14 +4,14 @@
 //! doubles between which the decision changes; the scene is then moved by some
 //! units in the last place. The later ground motion makes the decision count.
 
-use rocking::integrator::{Observe, Response};
+use rocking::integrator::{Observe, Outcome, Response};
 
 use super::draw::Draw;
 use super::random::{
     FoundScene, NamedScene, PULSES, ordinary_record, under_pulse,
 };
 use super::records::{filtered, noise, normalised};
-use super::search::{geometric, linear, moved, near, sides};
+use super::search::{Sides, geometric, linear, moved, near, sides};
 use crate::engine::respond;
 use crate::scene::{CaseScene, EngineResult, Forcing};
 
@@ -34,19 +34,44 @@ const LONGEST: usize = 400;
 
 /// The scene of an index: one kind of decision after the other.
 pub(super) fn grazing(draw: &mut Draw, index: u64) -> FoundScene {
+    attempts(|| match index % KINDS {
+        0 => contact(draw),
+        1 => fate(draw, (index / KINDS) as usize),
+        2 => Ok(Some(uplift(draw)?)),
+        3 => rest(draw),
+        _ => late(draw),
+    })
+}
+
+/// The first scene that is found.
+fn attempts(mut find: impl FnMut() -> FoundScene) -> FoundScene {
     for _ in 0..ATTEMPTS {
-        let found = match index % KINDS {
-            0 => contact(draw)?,
-            1 => fate(draw, (index / KINDS) as usize)?,
-            2 => Some(uplift(draw)?),
-            3 => rest(draw)?,
-            _ => late(draw)?,
-        };
+        let found = find()?;
         if found.is_some() {
             return Ok(found);
         }
     }
     Ok(None)
+}
+
+/// Number of impacts until an instant (s); none if the block overturns.
+fn impacts(scene: &CaseScene, until_s: f64) -> EngineResult<Option<u64>> {
+    let response = run_until(scene, until_s)?;
+    let stands = !response.outcome.is_overturned();
+    Ok(stands.then_some(response.work.impacts))
+}
+
+/// A scene beside a decision, if the decision changes the peak by more than
+/// `least`.
+fn counted(
+    draw: &mut Draw,
+    (name, most, least): (&str, usize, f64),
+    peak: fn(&Response) -> f64,
+    (at, ends): Sides<'_>,
+) -> FoundScene {
+    let [a, b] = ends.map(|x| respond(&at(x), &Observe::default()));
+    let counts = (peak(&a?) - peak(&b?)).abs() > least;
+    Ok(counts.then(|| (name.to_owned(), near(draw, most, (at, ends)))))
 }
 
 /// A contact made or missed during the first part of a record.
@@ -62,11 +87,7 @@ fn contact(draw: &mut Draw) -> FoundScene {
         let samples = first.iter().map(|x| x * factor);
         scene.with_samples(samples.chain(then.iter().copied()).collect())
     };
-    let impacts = |scene: &CaseScene| {
-        let response = run_until(scene, late)?;
-        let over = response.outcome.is_overturned();
-        Ok((!over).then_some(response.work.impacts))
-    };
+    let impacts = |scene: &CaseScene| impacts(scene, late);
     // One more impact is cut off by the end of the run; two are a contact and
     // the return from it.
     let turns = |a: &Option<u64>, b: &Option<u64>| {
@@ -76,12 +97,7 @@ fn contact(draw: &mut Draw) -> FoundScene {
     let Some(sides) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
-    let peak = |x: f64| -> EngineResult<f64> {
-        Ok(respond(&(sides.0)(x), &Observe::default())?.peak_ratio)
-    };
-    let [a, b] = sides.1;
-    let counts = (peak(a)? - peak(b)?).abs() > COUNTS;
-    Ok(counts.then(|| ("contact".to_owned(), near(draw, NEAR, sides))))
+    counted(draw, ("contact", NEAR, COUNTS), |run| run.peak_ratio, sides)
 }
 
 /// An amplitude between two outcomes.
@@ -247,13 +263,7 @@ pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
 /// Only the fast part of that hop shows that its rotation is rounded: the
 /// block starts without error and lands slowly.
 pub(super) fn first_hop(draw: &mut Draw) -> FoundScene {
-    for _ in 0..ATTEMPTS {
-        let found = hop(draw)?;
-        if found.is_some() {
-            return Ok(found);
-        }
-    }
-    Ok(None)
+    attempts(|| hop(draw))
 }
 
 /// A lobe that lifts the block, one that pulls it back, and one that catches
@@ -280,13 +290,8 @@ fn hop(draw: &mut Draw) -> FoundScene {
         let forcing = Forcing::samples(dt_s, samples);
         CaseScene { forcing, ..plain.clone() }
     };
-    let until_s = Some((first - 1) as f64 * dt_s);
-    let impacts = |scene: &CaseScene| {
-        let observe = Observe { until_s, ..Observe::default() };
-        let response = respond(scene, &observe)?;
-        let over = response.outcome.is_overturned();
-        Ok((!over).then_some(response.work.impacts))
-    };
+    let late = (first - 1) as f64 * dt_s;
+    let impacts = |scene: &CaseScene| impacts(scene, late);
     // Missed, or met and left again.
     let turns = |a: &Option<u64>, b: &Option<u64>| {
         matches!((a, b), (Some(0), Some(2)) | (Some(2), Some(0)))
@@ -296,12 +301,9 @@ fn hop(draw: &mut Draw) -> FoundScene {
     let Some(sides) = sides(draw, range, at, impacts, turns)? else {
         return Ok(None);
     };
-    let peak = |x: f64| {
-        let response = respond(&(sides.0)(x), &Observe::default())?;
-        let over = response.outcome.is_overturned();
-        Ok(if over { f64::NAN } else { response.peak_ratio })
+    let standing = |run: &Response| match run.outcome {
+        Outcome::Overturned { .. } => f64::NAN,
+        _ => run.peak_ratio,
     };
-    let [a, b] = sides.1;
-    let counts = (peak(a)? - peak(b)?).abs() > COUNTS_LATER;
-    Ok(counts.then(|| ("first hop".to_owned(), near(draw, NEAR_BASE, sides))))
+    counted(draw, ("first hop", NEAR_BASE, COUNTS_LATER), standing, sides)
 }

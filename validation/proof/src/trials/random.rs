@@ -9,9 +9,9 @@ use super::draw::Draw;
 use super::records::RecordKind;
 use crate::scene::{CaseScene, EngineResult, Forcing, Model, Overturning};
 
-/// Samples of a record, at most, but for the few long ones.
+/// Most samples of a record that is not long.
 const COMMON: usize = 2000;
-/// Samples of a long record, at most.
+/// Most samples of a long record.
 const LONG: usize = 100_000;
 /// Share of long records.
 const SHARE_OF_LONG: f64 = 1.0 / 256.0;
@@ -54,10 +54,10 @@ const EXTREME: Ranges = Ranges {
     gamma: [1.0, 1000.0],
 };
 
-/// Periods of a pulse times their duration times p, at most.
+/// Largest number of periods of a pulse times their duration times p.
 const LONGEST_PULSE: f64 = 500.0;
 
-/// A scene of the study's kind.
+/// A scene like those of the study.
 pub(super) fn ordinary(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &ORDINARY);
     scene.restitution = draw.uniform(0.8, 0.97);
@@ -75,8 +75,7 @@ pub(super) fn ordinary(draw: &mut Draw) -> NamedScene {
 /// A scene at the ends of what is accepted.
 pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &EXTREME);
-    let eta = draw.uniform(0.0, 1.0);
-    scene.restitution = match eta {
+    scene.restitution = match draw.uniform(0.0, 1.0) {
         0.0..0.02 => 1.0,
         0.02..0.04 => 1.0 - 1e-6,
         _ => draw.uniform(0.3, 1.0),
@@ -99,8 +98,7 @@ pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
     let threshold = scene.threshold_m_s2();
     if let Some(a) = scene.forcing.samples_mut() {
         if draw.chance(0.1) {
-            let round = |x: f64| (x * 1e3).round() / 1e3;
-            a.iter_mut().for_each(|x| *x = round(*x));
+            a.iter_mut().for_each(|x| *x = (*x * 1e3).round() / 1e3);
         }
         if draw.chance(0.1) {
             let at = draw.below(n);
@@ -142,11 +140,9 @@ pub(super) const PULSES: usize = PulseName::ALL.len() + 1;
 
 /// A block under a pulse of a kind.
 pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> NamedScene {
-    let (ranges, least, most) = if draw.chance(0.3) {
-        (EXTREME, 0.3, 1.0)
-    } else {
-        (ORDINARY, 0.8, 0.97)
-    };
+    let extreme = draw.chance(0.3);
+    let ranges = if extreme { EXTREME } else { ORDINARY };
+    let (least, most) = if extreme { (0.3, 1.0) } else { (0.8, 0.97) };
     let mut scene = block(draw, &ranges);
     scene.restitution = draw.uniform(least, most);
     shaped(draw, scene, &ranges, which)

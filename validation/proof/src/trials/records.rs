@@ -6,7 +6,7 @@ use super::draw::Draw;
 use rocking::names::named;
 
 named! {
-    /// What a record is like.
+    /// Kind of a random record.
     pub(super) enum RecordKind: "kind" {
         /// White noise through an oscillator, under an envelope.
         Filtered = "filtered noise",
@@ -28,23 +28,39 @@ named! {
 }
 
 impl RecordKind {
-    /// So many samples, each `dt_s` after the other, with peak 1.
+    /// `n` samples at an interval (s), with peak 1.
     pub fn samples(self, draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
-        let samples = match self {
+        normalised(match self {
             Self::Filtered => filtered(draw, n, dt_s),
             Self::White => (0..n).map(|_| draw.normal()).collect(),
             Self::TwoShocks => two_shocks(draw, n, dt_s),
-            Self::Plateaus => plateaus(draw, n),
-            Self::Zeros => zeros(draw, n),
-            Self::Spikes => spikes(draw, n),
+            Self::Plateaus => runs(draw, n, 4, |draw, length| {
+                vec![draw.uniform(-1.0, 1.0); length]
+            }),
+            Self::Zeros => runs(draw, n, 3, |draw, length| {
+                if draw.chance(0.5) {
+                    return vec![0.0; length];
+                }
+                (0..length).map(|_| draw.normal()).collect()
+            }),
+            Self::Spikes => {
+                let share = draw.log(1.0 / n as f64, 0.3);
+                let mut spike =
+                    || if draw.chance(share) { draw.normal() } else { 0.0 };
+                (0..n).map(|_| spike()).collect()
+            }
             Self::SawTeeth => saw_teeth(draw, n),
-            Self::Repeated => repeated(draw, n),
-        };
-        normalised(samples)
+            Self::Repeated => {
+                let times = draw.count(2, 8);
+                let values = (0..n.div_ceil(times)).map(|_| draw.normal());
+                let all = values.flat_map(|x| std::iter::repeat_n(x, times));
+                all.take(n).collect()
+            }
+        })
     }
 }
 
-/// Samples over their peak; where all are zero the middle one becomes 1.
+/// Samples over their peak; if all are zero the middle one becomes 1.
 pub(super) fn normalised(mut samples: Vec<f64>) -> Vec<f64> {
     let peak = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     if peak > 0.0 {
@@ -82,16 +98,15 @@ pub(super) fn noise(draw: &mut Draw, n: usize, angle: f64) -> Vec<f64> {
     let turn = angle * (1.0 - damping * damping).sqrt();
     let (first, second) = (2.0 * decay * libm::cos(turn), decay * decay);
     let (mut last, mut before) = (0.0, 0.0);
-    (0..n)
-        .map(|_| {
-            let next = first * last - second * before + draw.normal();
-            (before, last) = (last, next);
-            next
-        })
-        .collect()
+    let next = |_| {
+        (before, last) =
+            (last, first * last - second * before + draw.normal());
+        last
+    };
+    (0..n).map(next).collect()
 }
 
-/// Half a sine or noise, then zeros or noise far below, then noise.
+/// Half a sine or noise, then zeros or much weaker noise, then noise.
 fn two_shocks(draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
     let first = (n / draw.count(4, 16)).max(1);
     let quiet = n / draw.count(2, 4);
@@ -111,13 +126,15 @@ fn two_shocks(draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
     samples
 }
 
-/// Runs of random lengths, each made by `next` from its length.
+/// Runs of random lengths up to a share of the samples, each made by `next`
+/// from its length.
 fn runs(
     draw: &mut Draw,
     n: usize,
-    longest: usize,
+    share: usize,
     mut next: impl FnMut(&mut Draw, usize) -> Vec<f64>,
 ) -> Vec<f64> {
+    let longest = (n / share).max(2);
     let mut samples = Vec::with_capacity(n);
     while samples.len() < n {
         let length = draw.count(1, longest).min(n - samples.len());
@@ -126,51 +143,13 @@ fn runs(
     samples
 }
 
-fn plateaus(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let longest = (n / 4).max(2);
-    runs(draw, n, longest, |draw, length| {
-        vec![draw.uniform(-1.0, 1.0); length]
-    })
-}
-
-fn zeros(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let longest = (n / 3).max(2);
-    runs(draw, n, longest, |draw, length| {
-        if draw.chance(0.5) {
-            return vec![0.0; length];
-        }
-        (0..length).map(|_| draw.normal()).collect()
-    })
-}
-
-fn spikes(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let share = draw.log(1.0 / n as f64, 0.3);
-    (0..n)
-        .map(|_| if draw.chance(share) { draw.normal() } else { 0.0 })
-        .collect()
-}
-
 fn saw_teeth(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let longest = (n / 4).max(2);
     let alternating = draw.chance(0.5);
     let mut sign = 1.0;
-    runs(draw, n, longest, |draw, length| {
+    runs(draw, n, 4, |draw, length| {
         let height = draw.uniform(0.3, 1.0);
         sign = if alternating { -sign } else { draw.sign() };
         let slope = sign * height / length as f64;
         (0..length).map(|k| slope * (k + 1) as f64).collect()
     })
-}
-
-fn repeated(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let times = draw.count(2, 8);
-    let mut value = 0.0;
-    (0..n)
-        .map(|k| {
-            if k % times == 0 {
-                value = draw.normal();
-            }
-            value
-        })
-        .collect()
 }

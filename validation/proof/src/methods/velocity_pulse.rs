@@ -27,6 +27,9 @@ const SINES: [(f64, f64, f64); 5] = [
     (0.5, 5.3, 1.7),
 ];
 
+/// A number of a candidate.
+type PulseQuantity = fn(&Candidate) -> f64;
+
 /// A pulse of Mavroeidis and Papageorgiou along one direction, and modulated
 /// sines, rounded to a millionth of g.
 #[derive(Deserialize)]
@@ -84,7 +87,7 @@ pub fn pulses(context: &Context, answer: &mut Reply) -> Result<()> {
     // PGV enters in cm/s.
     let unit = context.or(WrongModel::VelocityInMS, 0.01, 1.0);
     let found = candidates(&first, &second, unit * STANDARD_GRAVITY_M_S2)?;
-    let quantities: [(&str, fn(&Candidate) -> f64); 8] = [
+    let quantities: [(&str, PulseQuantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
         ("direction_rad", |c| c.direction_rad),

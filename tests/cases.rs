@@ -8,7 +8,7 @@ use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_proof::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
-use rocking_proof::methods::{all_methods, digits, digits_csv};
+use rocking_proof::methods::{all_methods, digits_csv};
 use rocking_proof::verdict::{CaseOutcome, CaseVerdict, run_case, snapshot};
 
 fn main() -> ExitCode {
@@ -123,7 +123,7 @@ fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
         ))
     };
     let precision = move || {
-        let own = digits_csv(&digits().map_err(|e| e.to_string())?);
+        let own = digits_csv().map_err(|e| e.to_string())?;
         if committed("precision.csv") == own {
             return Ok(());
         }

@@ -5,8 +5,7 @@
 //! cargo run -p rocking-proof --example published -- ordinary.csv pulse.csv
 //! ```
 //!
-//! Without index files it prints those of the embedded suites. The study
-//! components count.
+//! Only the study components count.
 
 use std::path::Path;
 
@@ -19,13 +18,10 @@ use rocking_records::{ReadOptions, Suite};
 
 fn main() -> Result<()> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
-    let suites = match paths.as_slice() {
-        [] => [rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?]
-            .map(|suite| suite.into_iter().map(|p| p.components[0].clone()))
-            .map(Iterator::collect),
-        [ordinary, pulse] => [read(ordinary)?, read(pulse)?],
-        _ => bail!("expected ORDINARY and PULSE, or nothing"),
+    let [ordinary, pulse] = paths.as_slice() else {
+        bail!("expected ORDINARY and PULSE");
     };
+    let suites = [read(ordinary)?, read(pulse)?];
     println!("suite,law,quantity,p_rad_s,motions,value");
     for (name, motions) in ["ordinary", "pulse"].into_iter().zip(suites) {
         for law in PublishedLaw::ALL {

@@ -1,10 +1,10 @@
-//! Where a fate flips.
+//! The place at which an outcome changes.
 
-/// Where a predicate turns true between `low` and `high`, to this share of
-/// its place; not a number where it does not.
+/// The number between `low` and `high` at which a predicate turns true, to
+/// this relative tolerance; not a number if it does not.
 ///
 /// # Errors
-/// What the predicate gives.
+/// An error of the predicate.
 pub fn edge<E>(
     [mut low, mut high]: [f64; 2],
     tolerance: f64,
@@ -20,7 +20,7 @@ pub fn edge<E>(
     Ok(0.5 * (low + high))
 }
 
-/// The range of all within this share of a number.
+/// The range within this relative distance of a number.
 pub fn around(near: f64, reach: f64) -> [f64; 2] {
     [near * (1.0 - reach), near * (1.0 + reach)]
 }

@@ -7,6 +7,7 @@ use rocking::integrator::{
 };
 use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
+use serde::Deserialize;
 
 use crate::arithmetic::{RoundedConstants, Single, wide};
 use crate::scene::{
@@ -79,7 +80,7 @@ pub fn respond(
     })
 }
 
-/// Where the quotient of an acceleration and gravity is rounded.
+/// Rounding of the quotient of an acceleration and gravity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quotient {
     /// To double precision, before the run.
@@ -152,9 +153,9 @@ pub struct WideTrace {
     pub impacts: Vec<(DoubleDouble, DoubleDouble)>,
     /// Largest |theta|/alpha reached.
     pub peak_ratio: DoubleDouble,
-    /// When it overturned, s.
+    /// Time of overturning, s.
     pub overturned_s: Option<DoubleDouble>,
-    /// When it came to rest, s.
+    /// Time of rest, s.
     pub rest_s: Option<DoubleDouble>,
     /// Bound on the error of the peak ratio.
     pub error_estimate: f64,
@@ -162,8 +163,9 @@ pub struct WideTrace {
     pub resolved: bool,
 }
 
-/// Arithmetic of a run. A page has none that is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Arithmetic of a run. A page only has the correct ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Precision {
     /// Every operation rounded to 24 bits.
     #[cfg(not(target_family = "wasm"))]

@@ -32,7 +32,7 @@ mod velocity_pulse;
 mod wrong;
 
 #[cfg(not(target_family = "wasm"))]
-pub use digits::{DIGITS_HEADER, digits, digits_csv};
+pub use digits::{DIGITS_HEADER, digits_csv};
 pub use method::{Context, Method, Quantities, Reply};
 
 use anyhow::{Context as _, Result};

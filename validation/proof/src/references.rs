@@ -14,7 +14,9 @@ use serde_json::Value;
 
 use crate::arithmetic::decimal;
 use crate::pulse::rescaled;
-use crate::scene::{CaseScene, Forcing, Model, Overturning, PulseKind};
+use crate::scene::{
+    CaseScene, Forcing, Model, Overturning, PulseKind, by_criterion,
+};
 
 /// An embedded file, read once.
 pub(crate) struct ReferenceFile<T> {
@@ -43,7 +45,7 @@ impl<T: DeserializeOwned> ReferenceFile<T> {
         Self { file, text, read: OnceLock::new() }
     }
 
-    /// What the file holds.
+    /// The parsed file.
     pub fn read(&self) -> Result<&T> {
         if let Some(read) = self.read.get() {
             return Ok(read);
@@ -122,11 +124,11 @@ pub(crate) struct Trajectory {
     g: Decimal,
     forcing: ReferenceForcing,
     pub expected: TrajectoryResult,
-    /// What a careful double-precision code was off by.
+    /// Errors of a careful double-precision code.
     pub attainable_float64: BTreeMap<String, Value>,
 }
 
-/// What the block does.
+/// Motion of the block.
 #[derive(Deserialize)]
 pub(crate) struct TrajectoryResult {
     pub n_uplifts: f64,
@@ -166,20 +168,18 @@ pub(crate) struct Checkpoint {
 }
 
 impl TrajectoryResult {
-    /// When the block overturns by a criterion.
+    /// Time of overturning by a criterion.
     pub fn overturned(&self, criterion: Overturning) -> Option<Decimal> {
-        match criterion {
-            Overturning::Alpha => self.t_first_abs_theta_eq_alpha,
-            Overturning::HalfPi => self.t_abs_theta_eq_pi_over_2,
-        }
+        let alpha = self.t_first_abs_theta_eq_alpha;
+        by_criterion(criterion, alpha, self.t_abs_theta_eq_pi_over_2)
     }
 
-    /// The peak; none where the file says that pi/2 is reached.
+    /// The peak; none if the file says that pi/2 is reached.
     pub fn peak(&self) -> Option<Decimal> {
         self.peak_abs_theta_over_alpha.clone().try_into().ok()
     }
 
-    /// The impacts before it overturns, where a run ends.
+    /// The impacts before overturning, which ends a run.
     pub fn impacts_until(
         &self,
         criterion: Overturning,
@@ -203,7 +203,7 @@ struct ReferenceForcing {
     parameters: BTreeMap<String, Value>,
 }
 
-/// Samples, or where they stand.
+/// Samples, or the file that has them.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum SampleSource {
@@ -212,7 +212,7 @@ enum SampleSource {
 }
 
 impl ReferenceForcing {
-    /// The pulse; none where the kind is not that of a pulse.
+    /// The pulse; none if the kind is not a pulse.
     fn pulse(&self) -> Result<Option<PulseKind>> {
         let name = match self.kind.as_str() {
             "one_sine" => PulseName::OneSine,
@@ -245,7 +245,7 @@ impl ReferenceForcing {
             };
             match keys.iter().find_map(|key| self.parameters.get(*key)) {
                 Some(found) => number(found).ok_or_else(|| self.lacks()),
-                // A Ricker pulse is 4 periods long where nothing is said.
+                // A Ricker pulse is 4 periods long by default.
                 None if parameter == P::Cycles => Ok(4.0),
                 None => Err(self.lacks()),
             }
@@ -334,7 +334,7 @@ pub(crate) struct LinearPulse {
     pub expected: LinearResult,
 }
 
-/// What the block does.
+/// Motion of the block.
 #[derive(Deserialize)]
 pub(crate) struct LinearResult {
     pub uplift_tau: Decimal,
@@ -413,12 +413,10 @@ impl RectangularPulse {
         CaseScene::new(block, self.eta.near, forcing).to(criterion)
     }
 
-    /// When the block overturns by a criterion.
+    /// Time of overturning by a criterion.
     pub fn overturned(&self, criterion: Overturning) -> Option<Decimal> {
-        match criterion {
-            Overturning::Alpha => self.t_theta_eq_alpha,
-            Overturning::HalfPi => self.t_theta_eq_pi_over_2,
-        }
+        let alpha = self.t_theta_eq_alpha;
+        by_criterion(criterion, alpha, self.t_theta_eq_pi_over_2)
     }
 }
 

@@ -8,7 +8,7 @@
 //! all take a [`CaseScene`] and return a [`Trace`].
 
 use std::convert::Infallible;
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_PI_2;
 use std::slice;
 
 use rocking::accelerogram::Accelerogram;
@@ -38,7 +38,7 @@ pub enum Forcing {
     },
 }
 
-/// A block, what moves it, and what ends the run.
+/// A block, its excitation, and the end of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseScene {
     /// Slenderness angle alpha in rad.
@@ -51,7 +51,7 @@ pub struct CaseScene {
     pub gravity_m_s2: f64,
     /// Equation of motion.
     pub model: Model,
-    /// What ends the run.
+    /// Criterion of overturning, which ends the run.
     pub overturning: Overturning,
     /// Ground acceleration.
     pub forcing: Forcing,
@@ -179,16 +179,18 @@ impl CaseScene {
 
     /// Rotation that ends the run, rad.
     pub fn limit_rad(&self) -> f64 {
-        match self.overturning {
-            Overturning::Alpha => self.slenderness_rad,
-            Overturning::HalfPi => PI / 2.0,
-        }
+        by_criterion(self.overturning, self.slenderness_rad, FRAC_PI_2)
     }
 }
 
 /// The first value in Eq. 1, the second in Eq. 2.
 pub fn by_equation<T>(model: Model, nonlinear: T, linear: T) -> T {
     if model == Model::Nonlinear { nonlinear } else { linear }
+}
+
+/// The first value by |theta| >= alpha, the second by |theta| >= pi/2.
+pub fn by_criterion<T>(criterion: Overturning, alpha: T, half_pi: T) -> T {
+    if criterion == Overturning::Alpha { alpha } else { half_pi }
 }
 
 /// The other equation of motion.

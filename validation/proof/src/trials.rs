@@ -1,9 +1,9 @@
-//! Random scenes that put the certificate of a run to the proof: a run in
-//! double precision against wider arithmetic from the same doubles.
+//! Random scenes that test the certificate of a run: a run in double precision
+//! against wider arithmetic from the same doubles.
 //!
-//! Every scene has an address, its stratum and its index, and follows from
-//! them alone. Gravity is 1 in all of them, so that accelerations are
-//! multiples of it and no quotient rounds them again.
+//! The address of a scene, its stratum and its index, determines it. Gravity
+//! is 1 in all scenes, so that accelerations are multiples of it and no
+//! quotient rounds them again.
 
 mod compare;
 mod draw;
@@ -34,11 +34,11 @@ named! {
     pub enum Stratum: "stratum" {
         /// Blocks and ground motions of the study and around it.
         Ordinary = "ordinary",
-        /// Blocks, records and pulses at the ends of what is accepted.
+        /// Blocks, records and pulses at the limits of valid input.
         Extreme = "extreme",
         /// Scenes in which a discrete decision is taken within rounding.
         Grazing = "grazing",
-        /// Scenes whose observation ends where that decides.
+        /// Scenes whose end of observation is a decision.
         Ending = "ending",
         /// Scenes whose ground acceleration has its peak at the threshold of
         /// uplift.
@@ -50,12 +50,11 @@ named! {
 
 /// The scene of an address.
 ///
-/// None where a scene that grazes was asked for and none of the scenes drawn
-/// could be brought to graze.
+/// None if the stratum needs a grazing scene and no drawn scene can be made to
+/// graze.
 ///
 /// # Errors
-/// [`EngineError`] where a run that is needed to find a grazing scene is
-/// refused.
+/// [`EngineError`] if a run of the search is refused.
 ///
 /// ```
 /// use rocking_proof::trials::{Stratum, trial};
@@ -80,9 +79,9 @@ pub fn trial(stratum: Stratum, index: u64) -> EngineResult<Option<Trial>> {
     }))
 }
 
-/// Findings on the scenes of these indices, in their order, without
-/// those that could not be brought to graze and those that take more work
-/// than is allowed in some arithmetic.
+/// Findings on the scenes of these indices, in their order, without scenes
+/// that could not be made to graze and scenes that exceed the work limit in
+/// some arithmetic.
 ///
 /// # Errors
 /// [`EngineError`] of the first scene refused for another reason.

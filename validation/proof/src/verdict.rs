@@ -17,7 +17,7 @@ named! {
     pub enum CaseVerdict: "verdict" {
         /// Every bound holds and every wrong model is rejected.
         Pass = "pass",
-        /// A bound is broken, or a wrong model is not rejected.
+        /// A bound is exceeded, or a wrong model is not rejected.
         Fail = "fail",
         /// The case could not be judged.
         Error = "error",
@@ -31,11 +31,11 @@ pub struct Check {
     pub quantity: String,
     /// Its bound.
     pub bound: Bound,
-    /// What was observed.
+    /// Observed values.
     pub observed: Vec<f64>,
-    /// What was expected; empty where the bound needs nothing.
+    /// Expected values; empty if the bound needs none.
     pub expected: Vec<f64>,
-    /// Largest error in the bound's own measure; infinite where the values
+    /// Largest error in the measure of the bound; infinite if the values
     /// cannot be compared.
     pub error: f64,
     /// Error over bound: at most 1 passes.
@@ -43,13 +43,13 @@ pub struct Check {
 }
 
 impl Check {
-    /// Whether the bound holds; not a number fails.
+    /// True if the bound holds; not a number fails.
     pub fn holds(&self) -> bool {
         self.margin <= 1.0
     }
 }
 
-/// How a wrong model was rejected.
+/// Rejection of a wrong model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rejection {
@@ -70,12 +70,12 @@ pub struct CaseOutcome {
     pub rejections: BTreeMap<String, Rejection>,
     /// The verdict.
     pub verdict: CaseVerdict,
-    /// What went wrong, if anything did.
+    /// Failures, if any.
     pub messages: Vec<String>,
 }
 
 impl CaseOutcome {
-    /// Largest margin over the quantities; none where all are exact.
+    /// Largest margin over the quantities.
     pub fn worst_margin(&self) -> f64 {
         self.checks.iter().fold(0.0, |worst, c| largest(worst, c.margin))
     }
@@ -298,7 +298,8 @@ fn describe(check: &Check) -> String {
         let (seen, due) = (o.to_bits(), e.to_bits());
         let _ = write!(
             text,
-            "\n  [{i}] observed {o:e} ({seen:016x}), expected {e:e} ({due:016x})"
+            "\n  [{i}] observed {o:e} ({seen:016x}), \
+             expected {e:e} ({due:016x})"
         );
     }
     text

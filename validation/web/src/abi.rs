@@ -1,7 +1,7 @@
 //! The boundary to a page: bytes go in and out by two buffers.
 //!
-//! The page asks for room, writes its question there, calls `answer`, and
-//! reads the answer where `answer_start` says.
+//! The page calls `room`, writes its question there, calls `answer`, and reads
+//! the answer from `answer_start`.
 #![expect(
     unsafe_code,
     reason = "a name that a page calls must not be mangled; no pointer is followed here"
@@ -26,14 +26,15 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 /// Answers the question, and gives the length of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
-    let found = crate::question::answered(&QUESTION.take());
+    let question = QUESTION.take();
+    let found = crate::answer(&String::from_utf8_lossy(&question));
     ANSWER.with_borrow_mut(|answer| {
-        *answer = found;
+        *answer = found.into_bytes();
         answer.len()
     })
 }
 
-/// Where the answer lies.
+/// Address of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer_start() -> *const u8 {
     ANSWER.with_borrow(|answer| answer.as_ptr())

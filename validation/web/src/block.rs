@@ -1,4 +1,4 @@
-//! A reader's own block.
+//! A block that the reader chooses.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -37,16 +37,14 @@ impl LabBlock {
             Self::Parameters { alpha_rad, p_rad_s } => {
                 Block::try_new(alpha_rad, p_rad_s)?
             }
-            Self::Lengths { width_m, height_m } => Block::from_dimensions(
-                width_m,
-                height_m,
-                STANDARD_GRAVITY_M_S2,
-            )?,
+            Self::Lengths { width_m: b, height_m: h } => {
+                Block::from_dimensions(b, h, STANDARD_GRAVITY_M_S2)?
+            }
         })
     }
 }
 
-/// What moves the ground, before it is scaled.
+/// The ground motion before scaling.
 #[derive(Clone, Debug, Deserialize)]
 pub struct LabGround {
     kind: String,
@@ -55,7 +53,7 @@ pub struct LabGround {
     numbers: BTreeMap<String, f64>,
 }
 
-/// A record file as a page reads it, and what the caller knows of it.
+/// A record file from a page, with its interval and unit if known.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LabFile {
@@ -97,14 +95,14 @@ pub fn read(file: &LabFile) -> Answer<Vec<LabComponent>> {
     Ok(records.iter().map(|r| LabComponent::of(&r.accelerogram)).collect())
 }
 
-/// A block, its ground, and how strongly it moves.
+/// A block, its ground motion and the intensity.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LabScene {
     block: LabBlock,
     eta: f64,
     ground: LabGround,
-    /// PGA/(g tan alpha); none leaves a record as it is.
+    /// PGA/(g tan alpha); none leaves a record unscaled.
     intensity: Option<f64>,
 }
 
@@ -115,11 +113,8 @@ enum LabMotion {
 
 /// The embedded pulse-type motions, first components: those of the study.
 pub fn motions() -> Answer<Vec<LabComponent>> {
-    let pairs = rocking_synthesis::pulse()?;
-    Ok(pairs
-        .iter()
-        .map(|pair| LabComponent::of(&pair.components[0]))
-        .collect())
+    let pairs = rocking_synthesis::pulse()?.into_iter();
+    Ok(pairs.map(|pair| LabComponent::of(&pair.components[0])).collect())
 }
 
 impl LabGround {
@@ -161,7 +156,7 @@ impl LabGround {
     }
 }
 
-/// A response and how sure it is.
+/// A response and its certificate.
 #[derive(Serialize)]
 pub struct LabResponse {
     alpha_rad: f64,
@@ -190,7 +185,7 @@ pub struct LabCurve {
     bits: String,
 }
 
-/// Fates: a row of outcomes for each frequency parameter.
+/// A row of outcomes for each frequency parameter.
 #[derive(Serialize)]
 pub struct FateGrid {
     rows: Vec<Vec<&'static str>>,
@@ -227,7 +222,7 @@ impl LabScene {
         work(&scene, pga_g)
     }
 
-    /// The response of the block, its fate in the precision that it needs.
+    /// The response of the block, with its outcome in sufficient precision.
     pub fn response(&self) -> Answer<LabResponse> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;
@@ -246,14 +241,11 @@ impl LabScene {
             let mut response = respond(scene, &observe)?;
             let certified = certify(scene, &Certify::default())?;
             let history = take(&mut response.history);
-            let ratio: Vec<f64> = history
-                .iter()
-                .map(|point| point.rotation_rad / block.slenderness_rad())
-                .collect();
-            let bits = Bits::default()
-                .add("peak", &[response.peak_ratio])
-                .add("ratio", &ratio)
-                .hex();
+            let alpha_rad = block.slenderness_rad();
+            let ratio = history.iter().map(|p| p.rotation_rad / alpha_rad);
+            let ratio: Vec<f64> = ratio.collect();
+            let bits = Bits::default().add("peak", &[response.peak_ratio]);
+            let bits = bits.add("ratio", &ratio).hex();
             let ground_g = history.iter().enumerate();
             let ground_g = ground_g.map(|(k, point)| match &motion {
                 LabMotion::Record(record) => {
@@ -264,7 +256,7 @@ impl LabScene {
                 }
             });
             Ok(LabResponse {
-                alpha_rad: block.slenderness_rad(),
+                alpha_rad,
                 p_rad_s: block.frequency_rad_s(),
                 width_m: lengths.width_m,
                 height_m: lengths.height_m,
@@ -298,15 +290,14 @@ impl LabScene {
         let points: Vec<[f64; 2]> =
             standing.vertices().map(|(im, edp)| [im, edp]).collect();
         let overturning = standing.overturning_im();
-        let bits = Bits::default()
-            .add("points", points.as_flattened())
-            .add("overturning", &[overturning.unwrap_or(f64::INFINITY)])
-            .hex();
+        let first = overturning.unwrap_or(f64::INFINITY);
+        let bits = Bits::default().add("points", points.as_flattened());
+        let bits = bits.add("overturning", &[first]).hex();
         Ok(LabCurve { points, overturning, analyses: curve.analyses, bits })
     }
 
-    /// What becomes of blocks of the same slenderness and other sizes, at
-    /// other intensities of the same motion.
+    /// Outcomes of blocks of the same slenderness and other sizes, at other
+    /// intensities of the same motion.
     pub fn fates(
         &self,
         intensities: &[f64],
@@ -322,10 +313,10 @@ impl LabScene {
             let block = Block::try_new(alpha_rad, *p_rad_s)?;
             let (mut fates, mut row) = (Vec::new(), Vec::new());
             for intensity in intensities {
-                let found =
-                    self.at(block, &motion, Some(*intensity), |scene, _| {
-                        Ok(solver.respond(scene, &observe)?)
-                    })?;
+                let run = |scene: &rocking::Scene<'_>, _| {
+                    Ok(solver.respond(scene, &observe)?)
+                };
+                let found = self.at(block, &motion, Some(*intensity), run)?;
                 fates.push(found.outcome_name());
                 row.push(found.peak_ratio);
             }
@@ -337,7 +328,7 @@ impl LabScene {
     }
 }
 
-/// What the law of AvgSA says of a motion.
+/// Fragility under a motion by the law of AvgSA.
 #[derive(Serialize)]
 pub struct LabFragility {
     average_sa_g: f64,
@@ -350,8 +341,8 @@ pub struct LabFragility {
 const INTERVALS: u32 = 1000;
 
 impl LabScene {
-    /// Probability of overturning by the law of AvgSA: from the spectrum of
-    /// the motion alone.
+    /// Probability of overturning by the law of AvgSA, only from the spectrum
+    /// of the motion.
     pub fn fragility(&self) -> Answer<LabFragility> {
         let block = self.block.block()?;
         let motion = self.ground.motion()?;

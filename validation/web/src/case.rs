@@ -1,4 +1,4 @@
-//! Declared cases, run again.
+//! Reference cases, run in the page.
 
 use std::error::Error;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::bits::Bits;
 
-/// A declared case, before it is run.
+/// A reference case, before it is run.
 #[derive(Serialize)]
 pub struct CaseSummary {
     id: String,
@@ -26,8 +26,7 @@ pub struct CaseRun {
     first: String,
 }
 
-/// The cases that a page runs: those of every `cargo test` whose method does
-/// not take long.
+/// The cases that a page runs: quick cases of methods that take little time.
 pub fn list() -> Result<Vec<CaseSummary>, Box<dyn Error>> {
     let quick = |case: &Case| {
         let of_page = page_methods().any(|(name, _)| *name == case.method);

@@ -6,13 +6,13 @@ use serde_json::Value;
 use crate::block;
 use crate::case;
 
-/// What a page can ask.
+/// A request of a page.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
 enum LabQuestion {
-    /// Which declared cases there are.
+    /// The list of reference cases.
     Cases,
-    /// Run one declared case.
+    /// Run one reference case.
     Case {
         /// Its id.
         id: String,
@@ -21,11 +21,11 @@ enum LabQuestion {
     Motions,
     /// Read a record file.
     Read(block::LabFile),
-    /// What a block does under a ground motion.
+    /// The response of a block to a ground motion.
     Response(block::LabScene),
     /// The IDA of the block under that motion.
     Ida(block::LabScene),
-    /// Fates around the chosen point.
+    /// Outcomes around the chosen point.
     Fates {
         /// The point in the middle.
         scene: block::LabScene,
@@ -46,11 +46,6 @@ pub fn answer(question: &str) -> String {
     let found =
         found.unwrap_or_else(|error| serde_json::json!({ "error": error }));
     found.to_string()
-}
-
-/// The same for the bytes of a page.
-pub fn answered(question: &[u8]) -> Vec<u8> {
-    answer(&String::from_utf8_lossy(question)).into_bytes()
 }
 
 fn found(question: LabQuestion) -> Result<Value, String> {

@@ -11,7 +11,7 @@ use crate::input;
 use crate::terminal::say;
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
-use rocking_proof::methods::{digits, digits_csv};
+use rocking_proof::methods::digits_csv;
 use rocking_proof::verdict::{CaseOutcome, CaseVerdict, run_all, snapshot};
 use rocking_report::diff::{self, ResultFiles};
 
@@ -75,7 +75,7 @@ pub fn run_verify(args: &VerifyCommand) -> Result<(), Failure> {
     let path = folder.join("verification.json");
     let text = snapshot::text(&outcomes);
     let digits_path = folder.join("precision.csv");
-    let digits = digits_csv(&digits()?);
+    let digits = digits_csv()?;
     if let Some([results, precision]) = outputs {
         results.write(text)?;
         return Ok(precision.write(digits)?);

@@ -12,13 +12,13 @@ named! {
     pub enum EvidenceKind: "kind" {
         /// The code does what the model says: closed forms, high precision.
         CodeVerification = "code-verification",
-        /// The numerical error is what the method promises.
+        /// The numerical error has the size that the method promises.
         SolutionVerification = "solution-verification",
-        /// The model beside findings that others published.
+        /// The model against published findings.
         ModelComparison = "model-comparison",
         /// A statistical procedure keeps its stated error rates.
         StatisticalCalibration = "statistical-calibration",
-        /// Our own number, pinned.
+        /// An accepted number of this program.
         Regression = "regression",
     }
 }
@@ -82,7 +82,7 @@ named! {
         Experiment = "experiment",
         /// Simulation with known truth.
         KnownTruthSimulation = "known-truth-simulation",
-        /// Our own earlier output.
+        /// Earlier output of this program.
         OwnOutput = "own-output",
     }
 }

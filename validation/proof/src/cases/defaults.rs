@@ -24,7 +24,7 @@ const MERGED: &[&[&str]] = &[
 /// Names of the keys that lead to a value.
 type Path = Vec<String>;
 
-/// Values by path, down to where they are merged.
+/// Values by path, down to the level at which they are merged.
 type Flat = BTreeMap<Path, Value>;
 
 /// Values with the number of the layer that gave each.

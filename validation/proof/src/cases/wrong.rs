@@ -1,4 +1,4 @@
-//! Wrong models by name: what a case must distinguish from the right one.
+//! Names of the wrong models that cases must reject.
 
 use rocking::names::named;
 
@@ -26,19 +26,19 @@ named! {
         TangentForAngle = "tangent-for-angle",
         /// Sample i taken at (i + 1) dt.
         OneSampleLate = "one-sample-late",
-        /// A record of whatever size made 1 g.
+        /// A record of any size scaled to 1 g.
         RecordNormalised = "record-normalised",
         /// cm/s2 read as m/s2.
         CmReadAsM = "cm-read-as-m",
         /// Record one sample short.
         LastSampleLost = "last-sample-lost",
-        /// The first impact passes without loss.
+        /// The first impact has no loss.
         MissedImpact = "missed-impact",
-        /// Impacts at the end of a step, by sign alone.
+        /// Impacts at the end of a step, only by the sign.
         SignOnlyEvents = "sign-only-events",
         /// Impact at the end of a step with the rotation found there.
         RotationKeptAtImpact = "rotation-kept-at-impact",
-        /// Rest below a tenth of p alpha, whatever the ground does.
+        /// Rest below a tenth of p alpha, under any ground acceleration.
         CrudeRest = "crude-rest",
         /// No change of pivot while the ground pushes back.
         SuppressedHop = "suppressed-hop",
@@ -54,9 +54,9 @@ named! {
         EnergyOfTheOtherEquation = "energy-of-the-other-equation",
         /// The condition of a sine that never ends for one that does.
         SemiInfiniteSine = "semi-infinite-sine",
-        /// Overturning wherever the energy passes the saddle's.
+        /// Overturning whenever the energy exceeds that of the saddle.
         EnergyWhicheverWay = "energy-whichever-way",
-        /// Overturning wherever |theta| exceeds alpha.
+        /// Overturning whenever |theta| exceeds alpha.
         AngleAlone = "angle-alone",
         /// Energy times eta at an impact, not eta^2.
         EtaOnceInEnergy = "eta-once-in-energy",
@@ -70,17 +70,18 @@ named! {
         OtherCriterion = "other-criterion",
         /// An error estimate 100 times too small.
         EstimateHundredth = "estimate-hundredth",
-        /// No decision counts but the fate.
+        /// Only the decision on the outcome counts.
         WithoutBranches = "without-branches",
         /// The end of observation decides nothing.
         WithoutEnd = "without-end",
-        /// An overturned run is sure whatever its error.
+        /// An overturned run is certain whatever its error.
         MarginInfinity = "margin-infinity",
-        /// Every error a tenth of what it is.
+        /// Every error divided by ten.
         TenthOfTheError = "tenth-of-the-error",
-        /// Every error a hundredth of what it is.
+        /// Every error divided by a hundred.
         HundredthOfTheError = "hundredth-of-the-error",
-        /// A flight rounded as its landing's speed goes, not its largest.
+        /// The rounding of a flight by its landing speed, not by its largest
+        /// speed.
         RoundingAtTheLanding = "rounding-at-the-landing",
         /// Coefficients and pi of a wider engine rounded to double precision.
         F64Constants = "f64-constants",
@@ -90,7 +91,7 @@ named! {
         SumOfSquares = "sum-of-squares",
         /// `n` for `n - 1`, `n - 1` for `n`, or the whole sample.
         OtherDivisor = "other-divisor",
-        /// D+ alone, or the smaller side.
+        /// D+, or the smaller side.
         UpperSideOnly = "upper-side-only",
         /// Critical values of a known distribution.
         PlainKolmogorov = "plain-kolmogorov",
@@ -102,7 +103,7 @@ named! {
         NextStream = "next-stream",
         /// Type 7 for 5, or 5 for 7.
         OtherQuantileType = "other-quantile-type",
-        /// Half of IM_R taken off.
+        /// Half of IM_R subtracted.
         HalfTheShift = "half-the-shift",
         /// The values for their logarithms.
         NoLogarithm = "no-logarithm",
@@ -114,7 +115,7 @@ named! {
         OverturningAsAnAngle = "overturning-as-an-angle",
         /// The first crossing for the median one.
         FirstForMedian = "first-for-median",
-        /// Eq. 7 as it stands, which cancels.
+        /// Eq. 7 as printed, which loses digits by cancellation.
         Equation7AsPrinted = "equation-7-as-printed",
         /// Eq. 7's limit for every c.
         DeltaMethod = "delta-method",
@@ -128,7 +129,7 @@ named! {
         HazardAtTheMedian = "hazard-at-the-median",
         /// An interval of a probability as if the dispersion were known.
         KnownDispersion = "known-dispersion",
-        /// Eq. 7 made up beyond its end.
+        /// Eq. 7 extended beyond its end.
         Clamped = "clamped",
         /// McGill's notch as 95 % interval.
         NotchForInterval = "notch-for-interval",
@@ -136,7 +137,7 @@ named! {
         WilsonInterval = "wilson-interval",
         /// Another interval, too narrow.
         OtherInterval = "other-interval",
-        /// An interval for each cell alone where all are meant.
+        /// An interval for each cell instead of one for all cells.
         PointwiseIntervals = "pointwise-intervals",
         /// Percentiles of the draws as ends of an interval.
         Percentiles = "percentiles",
@@ -146,7 +147,7 @@ named! {
         RecordsAsUnit = "records-as-unit",
         /// Shaking-table tests of one motion taken as independent.
         TestsAsUnit = "tests-as-unit",
-        /// Replicates with replacement for a test that ties break.
+        /// Replicates with replacement for a test that ties invalidate.
         TiedReplicates = "tied-replicates",
         /// Oscillators 1 % too slow.
         PeriodOnePercentLong = "period-one-percent-long",
@@ -172,7 +173,7 @@ named! {
         LatePulsesKept = "late-pulses-kept",
         /// The limit for many values, doubled.
         OneSideDoubled = "one-side-doubled",
-        /// The table though the shift was estimated.
+        /// The table in spite of an estimated shift.
         KnownShift = "known-shift",
         /// The null by the dispersion above the smallest value.
         DispersionAboveTheSmallest = "dispersion-above-the-smallest",

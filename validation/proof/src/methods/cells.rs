@@ -70,19 +70,11 @@ impl CsvRow {
         cells.map(|cell| self.parsed(cell)).collect()
     }
 
-    /// The decimal in a column, to the last bits of a double-double.
-    pub fn decimal(&self, column: usize) -> Result<DoubleDouble> {
-        self.wide(self.text(column))
-    }
-
-    /// The decimals in a column, separated by semicolons.
+    /// The decimals in a column, separated by semicolons, to the last bits of
+    /// a double-double.
     pub fn decimals(&self, column: usize) -> Result<Vec<DoubleDouble>> {
-        let cells = self.text(column).split(';');
-        cells.map(|cell| self.wide(cell)).collect()
-    }
-
-    fn wide(&self, text: &str) -> Result<DoubleDouble> {
-        decimal(text).with_context(|| self.no(text))
+        let wide = |text| decimal(text).with_context(|| self.no(text));
+        self.text(column).split(';').map(wide).collect()
     }
 
     /// The value of a text.
@@ -99,7 +91,7 @@ impl CsvRow {
         self.parsed(self.text(column))
     }
 
-    /// Puts quantities beside their expected values from a column on; `NA`
+    /// Puts quantities with their expected values from a column on; `NA`
     /// means that the reference has no value.
     pub fn put(
         &self,

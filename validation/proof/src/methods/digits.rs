@@ -12,7 +12,7 @@ use crate::engine::{Precision, WideTrace};
 use crate::references;
 use crate::scene::{CaseScene, Overturning, by_equation};
 
-/// Arithmetics in the order of the columns, and the digits of each.
+/// Kinds of arithmetic in the order of the columns, and the digits of each.
 const PRECISIONS: [(Precision, f64); 3] = [
     (Precision::Single, 7.2),
     (Precision::Double, 16.0),
@@ -22,19 +22,23 @@ const PRECISIONS: [(Precision, f64); 3] = [
 /// Impacts compared.
 const IMPACTS: usize = 10;
 
-/// A line of the table for every reference trajectory and hard case that
-/// moves, hard cases first.
+/// The table as CSV: a line for every reference trajectory and hard case that
+/// moves, hard cases first. A line has, in single, double and double-double
+/// precision, the digits of the peak |theta|/alpha or of the time of
+/// overturning, and the worst of the times and speeds of the first ten impacts.
+/// The truth is a reference of 36 digits, or the double-double run.
 ///
 /// # Errors
-/// An error where a case cannot be read or run.
-pub fn digits() -> Result<Vec<String>> {
+/// An error if a case cannot be read or run.
+pub fn digits_csv() -> Result<String> {
     let mut cases = load_all()?;
     let is_hard = |case: &Case| case.family == "hard-cases";
     cases.retain(|case| is_hard(case) || case.method == "trajectory");
     cases.sort_by_key(|case| !is_hard(case));
     let rows = cases.par_iter().map(|case| row(case).context(case.id.clone()));
     let rows: Vec<Option<String>> = rows.collect::<Result<_>>()?;
-    Ok(rows.into_iter().flatten().collect())
+    let rows = rows.into_iter().flatten();
+    Ok([DIGITS_HEADER.to_owned()].into_iter().chain(rows).collect())
 }
 
 fn row(case: &Case) -> Result<Option<String>> {
@@ -65,7 +69,7 @@ fn row(case: &Case) -> Result<Option<String>> {
     Ok(Some(format!("{},{equation},{truth},{reached}\n", case.id)))
 }
 
-/// Scene and truth of a trajectory, under the criterion that it is about.
+/// Scene and truth of a trajectory, under its criterion.
 fn reference(case: &Case) -> Result<(CaseScene, Option<WideTrace>)> {
     let entry = case.input.get("entry").and_then(toml::Value::as_str);
     let entry = references::trajectory(entry.unwrap_or_default())?;
@@ -90,7 +94,7 @@ fn reference(case: &Case) -> Result<(CaseScene, Option<WideTrace>)> {
     Ok((scene, Some(truth)))
 }
 
-/// Digits of the end, where the fate is right.
+/// Digits of the peak or of the time of overturning, if the outcome is right.
 fn end_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
     let (found, due) = match (run.overturned_s, truth.overturned_s) {
         (None, None) => (run.peak_ratio, truth.peak_ratio),
@@ -100,7 +104,7 @@ fn end_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
     format!("{:.1}", shared(found, due, most))
 }
 
-/// Fewest digits of the impacts, where there are any.
+/// Fewest digits of the impacts, if there are any.
 fn impact_reach(run: &WideTrace, truth: &WideTrace, most: f64) -> String {
     let impacts = truth.impacts.iter().take(IMPACTS).enumerate();
     let digits = impacts.map(|(k, (time, speed))| {
@@ -127,12 +131,3 @@ fn shared(found: DoubleDouble, due: DoubleDouble, most: f64) -> f64 {
 /// First line of the table as CSV.
 pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
     end_double_double,impacts_single,impacts_double,impacts_double_double\n";
-
-/// The table as CSV: of each scene in single, double and double-double
-/// precision the digits of the peak |theta|/alpha, or of the time of
-/// overturning, and the worst of the times and speeds of its first ten
-/// impacts. The truth is a reference of 36 digits, or the double-double run
-/// itself.
-pub fn digits_csv(rows: &[String]) -> String {
-    DIGITS_HEADER.to_owned() + &rows.concat()
-}

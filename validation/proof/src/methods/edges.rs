@@ -1,5 +1,5 @@
-//! Overturning edges of Eq. 1 against those of Eq. 2, where the safe bay of
-//! a one-sine pulse opens, and grazing uplift.
+//! Overturning edges of one-sine pulses in Eqs. 1 and 2, the opening of the
+//! safe bay, grazing uplift, and properties of blocks.
 
 use anyhow::{Context as _, Result};
 use rocking::block::{Block, Restitution};
@@ -10,7 +10,8 @@ use crate::edge::{self, around};
 use crate::oracles::overturning;
 use crate::references::{Decimal, ImpactBand, SPECTRUM, SpectrumRow};
 use crate::scene::{
-    CaseScene, Forcing, Model, Overturning, PulseName, Trace, by_equation,
+    CaseScene, Forcing, Model, Overturning, PulseName, Trace, by_criterion,
+    by_equation,
 };
 
 /// A property of every run above an edge and of none below it.
@@ -22,10 +23,10 @@ pub(super) const WITHOUT_IMPACT: Flip =
     |trace| trace.overturned_s.is_some() && trace.impacts.is_empty();
 /// The block overturns.
 const OVERTURNS: Flip = |trace| trace.overturned_s.is_some();
-/// The block stands.
+/// The block survives.
 const STANDS: Flip = |trace| trace.overturned_s.is_none();
 
-/// An edge of Eq. 2 as cases name it.
+/// An edge of Eq. 2 by its name in the cases.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Edge {
@@ -64,7 +65,7 @@ impl OneSine {
         range: [f64; 2],
     ) -> Result<f64> {
         let p = self.block[1];
-        // The saddle holds a block for 28/p at most when the amplitude is
+        // A block stays on the saddle for at most 28/p if the amplitude is
         // 1e-12 from the edge.
         let scene = CaseScene::new(self.block, self.eta, Forcing::NONE)
             .in_equation(self.equation)
@@ -191,7 +192,7 @@ pub fn restitution(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Every edge at one frequency, found again by bisecting the engine's fate
+/// Every edge at one frequency, by bisection of the engine's outcome
 /// within 1e-6 of the reference.
 pub fn spectrum(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
@@ -208,9 +209,8 @@ pub fn spectrum(context: &Context, answer: &mut Reply) -> Result<()> {
     let pulse = OneSine { equation, block, omega, eta };
     for (name, amplitude, (mut criterion, flip)) in table(row) {
         if context.is(WrongModel::OtherCriterion) {
-            let alpha = criterion == Overturning::Alpha;
-            let criteria = [Overturning::Alpha, Overturning::HalfPi];
-            criterion = criteria[usize::from(alpha)];
+            let (alpha, half_pi) = (Overturning::Alpha, Overturning::HalfPi);
+            criterion = by_criterion(criterion, half_pi, alpha);
         }
         let whole = [1.0, 3.0 * row.mode2_lower.near];
         let near = around(amplitude, 1e-6);
@@ -221,7 +221,7 @@ pub fn spectrum(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Names, amplitudes and fates of the edges.
+/// Names, amplitudes and outcomes of the edges.
 fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
     let mut edges = Vec::new();
     let mut add = |name: &str, amplitude: Decimal, criterion, flip| {
@@ -234,7 +234,7 @@ fn table(row: &SpectrumRow) -> Vec<(String, f64, (Overturning, Flip))> {
     if let Some(lower) = row.mode1_lower {
         add("mode-1-lower", lower, divergence, OVERTURNS);
     }
-    // Without loss, mode 1 goes over into mode 2: no fate flips there.
+    // Without loss, mode 1 merges into mode 2: no outcome changes there.
     if let Some(upper) = row.mode1_upper
         && row.eta.near < 1.0
     {

@@ -1,5 +1,5 @@
-//! The end of observation about an overturning or an uplift, and pulses that
-//! rise to the uplift threshold, against times and fates of 40 digits.
+//! The end of observation near an overturning or an uplift, and pulses that
+//! rise to the uplift threshold, against times and outcomes of 40 digits.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use rocking::number::{Number as _, Real as _};
 use super::cells::{Csv, CsvRow};
 use super::method::{Context, Reply};
 use crate::engine::{Quotient, on_core, respond};
-use crate::scene::{CaseScene, Forcing, Overturning};
+use crate::scene::{CaseScene, Forcing, by_criterion};
 use crate::trials::{CertificateReading, DoubleRun, moved};
 
 const ENDS: Csv = Csv::new("oracles/ends.csv");
@@ -19,7 +19,7 @@ const ENDS: Csv = Csv::new("oracles/ends.csv");
 /// Relative error of a peak that is right to all digits of a double.
 const PRINTED: f64 = 0.5 * f64::EPSILON;
 
-/// The scenes of a kind, each with three numbers that are known of it.
+/// The scenes of a kind, each with three known numbers.
 fn scenes(kind: &str) -> Result<Vec<(CaseScene, [DoubleDouble; 3])>> {
     let of = |row: CsvRow| {
         let given = row.list(10, ';')?;
@@ -127,7 +127,7 @@ impl Counts {
     }
 }
 
-/// Overturned before the end or not, lifted before it or not, and how far.
+/// Overturning and uplift before and after the end, and the peak.
 pub fn ends(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Units in the last place between the double next to an event and the
@@ -138,10 +138,9 @@ pub fn ends(context: &Context, answer: &mut Reply) -> Result<()> {
     let mut counts = Counts::default();
     for (mut scene, [lifted_s, over_s, rate]) in scenes("end")? {
         let alpha = DoubleDouble::from_f64(scene.slenderness_rad);
-        let limit = match scene.overturning {
-            Overturning::Alpha => DoubleDouble::one(),
-            Overturning::HalfPi => DoubleDouble::right_angle() / alpha,
-        };
+        let right_angle = DoubleDouble::right_angle() / alpha;
+        let limit =
+            by_criterion(scene.overturning, DoubleDouble::one(), right_angle);
         for ulps in ulps.iter().flat_map(|k| [-k, *k]) {
             for event_s in [lifted_s, over_s] {
                 let until_s = moved(event_s.to_f64(), ulps);

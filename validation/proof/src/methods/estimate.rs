@@ -1,6 +1,6 @@
 //! The error estimate against the true error.
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use rayon::prelude::*;
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
@@ -23,13 +23,8 @@ pub fn estimate(context: &Context, answer: &mut Reply) -> Result<()> {
         #[serde(default)]
         scenes: u64,
         /// `double` or `double-double`.
-        arithmetic: String,
+        arithmetic: Precision,
     }
-    let arithmetic = match arithmetic.as_str() {
-        "double" => Precision::Double,
-        "double-double" => Precision::DoubleDouble,
-        other => bail!("arithmetic `{other}`"),
-    };
     let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
     let unit = match arithmetic {
         Precision::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,

@@ -11,7 +11,7 @@ use crate::scene::{CaseScene, Forcing, Model, by_equation};
 /// R p^2/g of a rectangle.
 const ARM: f64 = 0.75;
 
-/// The forces that the core reports, for the scene as the wrong model has it.
+/// The forces by the core, for the scene with the mistake of the wrong model.
 fn forces(context: &Context, scene: &CaseScene) -> Result<Forces> {
     let observe = Observe { forces: true, ..Observe::default() };
     let run = engine::respond(&context.altered(scene), &observe)?;
@@ -44,7 +44,7 @@ pub fn uplift(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Places at which the energy's orbit is looked at.
+/// Sampled places of the orbit.
 const PLACES: usize = 200_000;
 
 /// Rocking without loss: one orbit, on which the energy gives velocity and
@@ -84,8 +84,8 @@ pub fn free(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Second differences of the position of the centre of mass, from the
-/// rotations of a history alone: the pivot gives what they and gravity ask.
+/// Second differences of the position of the centre of mass, only from the
+/// rotations of a history: they and gravity give the force at the pivot.
 pub fn momentum(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, blocks: Vec<[f64; 2]>, restitution: f64,

@@ -1,5 +1,5 @@
-//! Scenes made to be hard: beside the saddle, chatter under a constant
-//! acceleration, and double precision against double-double.
+//! Hard scenes: near the saddle, chatter under a constant acceleration, and
+//! double precision against double-double.
 
 use anyhow::{Result, ensure};
 use rocking::number::Real as _;
@@ -12,8 +12,8 @@ use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
 use crate::scene::{CaseScene, Forcing, Model};
 
-/// Rectangular pulses in Eq. 1 that leave a block an energy so much below
-/// the saddle that its peak stops at a distance from it, or as much above.
+/// Rectangular pulses in Eq. 1 that leave a block just enough energy to stop
+/// at a distance before the saddle, or as much energy above the saddle.
 pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         slenderness_rad: Vec<f64>, frequency_rad_s: f64,
@@ -46,8 +46,8 @@ pub fn saddle(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Chatter to rest under a constant acceleration: after the first impact
-/// every time, speed and the end of the series are known in closed form.
+/// Chatter to rest under a constant acceleration: after the first impact all
+/// times and speeds and the end of the series have a closed form.
 pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: f64, frequency_rad_s: f64,

@@ -74,8 +74,8 @@ pub fn measures(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Name of the motion in the file of expected values.
         motion: String,
-        /// The measures to compare: `first`, `second`, `geometric_mean`, `rotd50`,
-        /// `rotd100`.
+        /// The measures to compare: `first`, `second`, `geometric_mean`,
+        /// `rotd50`, `rotd100`.
         of: Vec<String>,
         first: ComponentInput, second: Option<ComponentInput>,
     }

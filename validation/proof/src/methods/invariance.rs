@@ -162,9 +162,9 @@ pub fn defect(context: &Context, answer: &mut Reply) -> Result<()> {
 /// contain alpha. The remainder is of order p^2 t^2 alpha^2, with t the
 /// duration of the flights.
 ///
-/// The slendernesses are given or, as in Figure 9, chosen so that each unscaled
-/// record has that intensity, tan(alpha) = PGA/(g IM); their closed form is
-/// then divided out record by record.
+/// The slendernesses are given or, as in Figure 9, chosen so that each
+/// unscaled record has that intensity, tan(alpha) = PGA/(g IM); their closed
+/// form is then divided out record by record.
 pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// None: adjusted to each record.

@@ -11,7 +11,7 @@ use super::cells::Csv;
 use super::method::{Context, Reply, WrongModel};
 use crate::engine::{Precision, WideTrace};
 use crate::references::{self, Decimal, LINEAR_PULSES, RECT_PULSE};
-use crate::scene::{CaseScene, Forcing, Model, Overturning};
+use crate::scene::{CaseScene, Forcing, Model, Overturning, by_criterion};
 
 /// The largest error of each quantity; infinite if a value is missing.
 impl Reply {
@@ -46,17 +46,15 @@ impl Reply {
         self.compare("relative-error-of-peak", Some(found), due, unit);
     }
 
-    /// When the criterion of a scene is met.
+    /// Time at which the criterion of a scene is met.
     fn end(
         &mut self,
         scene: &CaseScene,
         trace: &WideTrace,
         due: Option<Decimal>,
     ) {
-        let name = match scene.overturning {
-            Overturning::Alpha => "error-of-alpha-time-p",
-            Overturning::HalfPi => "error-of-half-pi-time-p",
-        };
+        let names = ["error-of-alpha-time-p", "error-of-half-pi-time-p"];
+        let name = by_criterion(scene.overturning, names[0], names[1]);
         let due = due.map(|t| t.wide);
         self.compare(name, trace.overturned_s, due, scene.frequency_rad_s);
     }
@@ -153,7 +151,7 @@ pub fn free_rocking(context: &Context, answer: &mut Reply) -> Result<()> {
     for row in FREE.rows(equation.name())? {
         let block = [1, 2, 3].map(|column| row.text(column));
         let lists = blocks.entry(block).or_default();
-        lists.entry(row.text(4)).or_default().push(row.decimal(6)?);
+        lists.entry(row.text(4)).or_default().extend(row.decimals(6)?);
     }
     let unit = DoubleDouble::from_f64(p);
     for (block, lists) in blocks {

@@ -1,5 +1,5 @@
-//! Published laws of rocking, computed from motions. One function serves the
-//! embedded suites and, through `examples/published.rs`, recorded ones.
+//! Published laws of rocking, computed from motions: of the embedded suites
+//! and, through `examples/published.rs`, of recorded ones.
 
 use anyhow::Result;
 use rocking::accelerogram::Accelerogram;
@@ -51,12 +51,12 @@ const ALPHA: f64 = 0.15;
 /// theta/alpha from which a block is close to overturning.
 const CLOSE: f64 = 0.3;
 
-/// The statistics of a law under motions, or what a wrong model makes of
-/// them. Restitution is 0.92; alpha is 0.15 for displacements and 0.1 for
+/// The statistics of a law under motions, or their values by a wrong model.
+/// Restitution is 0.92; alpha is 0.15 for displacements and 0.1 for
 /// overturning.
 ///
 /// # Errors
-/// For motions that cannot be analysed, or of which none counts.
+/// An error for motions that cannot be analysed, or if none of them counts.
 pub fn statistics(
     law: PublishedLaw,
     motions: &[Accelerogram],
@@ -187,7 +187,7 @@ pub fn laws(context: &Context, answer: &mut Reply) -> Result<()> {
     }
     for (name, value) in found {
         if context.case.tolerance.bounds.contains_key(&name) {
-            // What a law says of its ratio, where it says a number.
+            // The ratio by the law, if it gives a number.
             answer.put(&name, [value], [1.0]);
         }
     }

@@ -1,5 +1,4 @@
-//! The numerical error itself: energy in flight; and the work that a run
-//! takes.
+//! The numerical error of the energy in flight, and the work of a run.
 
 use anyhow::Result;
 use rocking::integrator::Observe;
@@ -12,8 +11,8 @@ use crate::scene::{
 };
 
 /// Energy above the base over that of the saddle, along a history in free
-/// flight, divided by eta^2 for each impact met: it stays what it was when
-/// the pulse ended.
+/// flight, divided by eta^2 for each impact: it keeps its value at the end of
+/// the pulse.
 pub fn energy(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
@@ -73,7 +72,7 @@ fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
     0.5 * w * w + by_equation(equation, turned, u * (alpha - 0.5 * u))
 }
 
-/// What runs of reference trajectories cost, apart from what they give.
+/// Work of runs of reference trajectories.
 pub fn work(context: &Context, answer: &mut Reply) -> Result<()> {
     input!(context; entries: Vec<String>);
     for entry in &entries {

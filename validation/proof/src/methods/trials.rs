@@ -43,7 +43,7 @@ pub fn certificate(context: &Context, answer: &mut Reply) -> Result<()> {
         ("wrong-and-clear", summary.wrong_and_clear as f64),
         ("estimates-exceeded", summary.exceeded as f64),
         ("runs", summary.runs as f64),
-        ("unresolved-share", summary.unresolved_share()),
+        ("unresolved-share", summary.unresolved as f64 / summary.runs as f64),
         ("wrong-and-unresolved", summary.wrong_and_unresolved as f64),
         ("clear-and-undecided", summary.undecided as f64),
     ];

@@ -15,7 +15,7 @@ pub struct LinearResponse {
     pub side: f64,
     /// Impacts: p t and |theta'|/(p alpha).
     pub impacts: Vec<(f64, f64)>,
-    /// When |theta| reaches alpha.
+    /// Time at which |theta| reaches alpha.
     pub overturned: Option<f64>,
 }
 

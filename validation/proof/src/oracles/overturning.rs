@@ -61,8 +61,8 @@ pub fn mode_1_upper(omega: f64, eta: f64) -> Option<f64> {
     (f(top) > 0.0).then(|| bisect(top, mode_2, f))
 }
 
-/// Where mode 1 of the one-sine pulse ends (eta > 1/sqrt(2)): Omega and A
-/// at which the largest F equals 1/eta^2 - 1.
+/// The end of mode 1 of the one-sine pulse (eta > 1/sqrt(2)): Omega and A at
+/// which the largest F equals 1/eta^2 - 1.
 pub fn fold(eta: f64) -> (f64, f64) {
     let need = 1.0 / (eta * eta) - 1.0;
     let top = |omega| stationary(omega, sine_without_impact(2, omega));
@@ -71,7 +71,7 @@ pub fn fold(eta: f64) -> (f64, f64) {
     (omega, top(omega))
 }
 
-/// Where F is largest: A + r = Omega coth(x/2).
+/// The amplitude of the largest F: A + r = Omega coth(x/2).
 fn stationary(omega: f64, mode_2: f64) -> f64 {
     bisect(1.0, mode_2, |a| {
         let r = (a * a - 1.0).sqrt();

@@ -1,5 +1,5 @@
 //! Rectangular pulse on the nonlinear block: gravity is turned by
-//! psi = atan(a/g), and the motion is again that of a pendulum.
+//! psi = atan(a/g), and the motion is that of a pendulum.
 
 use super::carlson::rf;
 
@@ -39,9 +39,10 @@ impl Rectangular {
         s.sqrt() / rate * rf(q2 * (1.0 - s1), q2 * (1.0 - q2), s1 * (1.0 - q2))
     }
 
-    /// Pulse after which the energy is that of the saddle plus `above` (in
-    /// the units of 1 - cos alpha), s; for 0 the shortest that overturns, which
-    /// lifts the block to alpha - asin[sin alpha - (1 - cos alpha) g/a].
+    /// Duration (s) after which the energy exceeds that of the saddle by
+    /// `above` (in units of 1 - cos alpha); for 0 the shortest pulse that
+    /// overturns, which lifts the block to alpha - asin[sin alpha - (1 - cos
+    /// alpha) g/a].
     pub fn duration_to_energy_s(&self, above: f64) -> f64 {
         let half = libm::sin(0.5 * self.alpha_rad);
         let need = (2.0 * half * half + above) / self.pull;

@@ -35,7 +35,7 @@ pub struct SquareState {
 pub struct SquareMotion {
     /// Times and speeds just before each impact during the wave.
     pub impacts: Vec<(f64, f64)>,
-    /// State where the wave ends.
+    /// State at the end of the wave.
     pub end: SquareState,
 }
 
@@ -46,7 +46,7 @@ struct SquareHop {
     rate: f64,
     kappa: f64,
     u: f64,
-    /// Whether u grows.
+    /// True if u grows.
     inward: bool,
 }
 
@@ -61,8 +61,8 @@ impl SquareHop {
         Self { turned, rate, kappa, u, inward: state.w < 0.0 }
     }
 
-    /// Time of flight to |u| from the turning point, or from u = 0 where
-    /// the hop passes it.
+    /// Time of flight to |u| from the turning point, or from u = 0 if the hop
+    /// passes it.
     fn reach(&self, u: f64) -> f64 {
         let (s, c) = (libm::sin(u).abs(), libm::cos(u));
         let k = self.kappa;
@@ -75,7 +75,7 @@ impl SquareHop {
         factor * integral / self.rate
     }
 
-    /// Whether the hop turns: it stays on its side of u = 0.
+    /// True if the hop turns, so that it stays on its side of u = 0.
     fn turns(&self) -> bool {
         self.kappa < 0.0
     }
@@ -86,8 +86,7 @@ impl SquareHop {
         if away { self.reach(u) } else { -self.reach(u) }
     }
 
-    /// Time until u, passed inwards or outwards; infinite where it is not
-    /// ahead.
+    /// Time until u, passed inwards or outwards; infinite if it is not ahead.
     fn until(&self, u: f64, inward: bool) -> f64 {
         let s = libm::sin(u);
         let behind = (u > 0.0) != (self.u > 0.0);
@@ -160,7 +159,7 @@ impl SquareWave {
     /// Outcome of the free motion after the wave, by energy.
     pub fn ending(&self, end: SquareState) -> Ending {
         let alpha = self.alpha_rad;
-        // Above that of the base, and of the saddle above the base.
+        // Energies above the base: of the block and of the saddle.
         let above = 0.5 * end.w * end.w
             + 2.0 * libm::sin(0.5 * end.y) * libm::sin(alpha - 0.5 * end.y);
         let half = libm::sin(0.5 * alpha);
@@ -181,7 +180,7 @@ impl SquareWave {
 pub struct Ending {
     /// The energy exceeds that of the saddle.
     pub passes: bool,
-    /// Side on which it overturns; zero if it stands.
+    /// Side on which it overturns; zero if it survives.
     pub overturned: f64,
     /// Speed before its first impact, over p.
     pub impact: Option<f64>,

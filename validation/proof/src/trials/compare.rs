@@ -25,14 +25,14 @@ pub struct Trial {
 /// Result of a run in double precision, and its own claims about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleRun {
-    /// Whether the block overturned.
+    /// True if the block overturned.
     pub overturned: bool,
     /// Largest |theta|/alpha.
     pub peak_ratio: f64,
-    /// Bound on the error of the peak; never below one unit in the last
-    /// place of 1, to which a run without motion is held.
+    /// Bound on the error of the peak, at least one unit in the last place of
+    /// 1, which is the limit for a run without motion.
     pub estimate: f64,
-    /// How clearly fate and peak were decided.
+    /// Certificate of outcome and peak.
     pub certificate: Certificate,
 }
 
@@ -49,7 +49,7 @@ impl DoubleRun {
     }
 }
 
-/// How a certificate is read: correctly, or as a wrong model reads it.
+/// Reading of a certificate: correctly, or as a wrong model reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CertificateReading(pub Option<WrongModel>);
 
@@ -94,7 +94,7 @@ impl CertificateReading {
 /// Result of wider arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WideTruth {
-    /// The block stands.
+    /// The block survives.
     Stands {
         /// Largest |theta|/alpha.
         peak_ratio: DoubleDouble,

@@ -1,4 +1,4 @@
-//! Scenes whose observation ends where it decides, and scenes whose ground
+//! Scenes whose end of observation is a decision, and scenes whose ground
 //! acceleration has its peak at the uplift threshold.
 
 use rocking::excitation::{Pulse, PulseName};
@@ -13,22 +13,22 @@ use super::search::moved;
 use crate::engine::respond;
 use crate::scene::{EngineError, Forcing};
 
-/// Scenes drawn, at most, to find one that has what is asked for.
+/// Most scenes drawn to find one with the required event.
 const ATTEMPTS: usize = 60;
-/// Units in the last place between an event and the end, at most.
+/// Most units in the last place between an event and the end.
 const NEAR_EVENT: usize = 10_000;
-/// Units in the last place between a peak and the threshold, at most.
+/// Most units in the last place between a peak and the threshold.
 const NEAR_THRESHOLD: usize = 100;
-/// Samples of a record, at most.
+/// Most samples of a record.
 const LONGEST: usize = 400;
-/// Time (in 1/p) after the ground motion that is looked at, at most.
+/// Longest observation (in 1/p) after the ground motion.
 const AFTER: f64 = 4.0;
 
 /// Kinds of pulse.
 const PULSES: usize = PulseName::ALL.len();
 
-/// A scene whose observation ends about an overturning, about the first
-/// uplift, or anywhere; one kind after the other.
+/// A scene whose observation ends near an overturning, near the first uplift,
+/// or anywhere; the index cycles through the kinds.
 pub(super) fn ending(draw: &mut Draw, index: u64) -> FoundScene {
     for _ in 0..ATTEMPTS {
         let (_, mut scene) = match draw.below(3) {
@@ -68,7 +68,7 @@ pub(super) fn ending(draw: &mut Draw, index: u64) -> FoundScene {
 }
 
 /// A pulse, or the first sample of a record, that rises to the threshold of
-/// uplift but for some units in the last place.
+/// uplift to within some units in the last place.
 pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<NamedScene> {
     let which = (index % (PULSES as u64 + 1)) as usize;
     if which == PULSES {

@@ -61,7 +61,7 @@ fn impacts(scene: &CaseScene, until_s: f64) -> EngineResult<Option<u64>> {
     Ok(stands.then_some(response.work.impacts))
 }
 
-/// A scene beside a decision, if the decision changes the peak by more than
+/// A scene next to a decision, if the decision changes the peak by more than
 /// `least`.
 fn counted(
     draw: &mut Draw,
@@ -185,7 +185,7 @@ fn rest(draw: &mut Draw) -> FoundScene {
 }
 
 /// A clear shock that makes the highest peak, then long shaking at the
-/// amplitude between two fates.
+/// amplitude between two outcomes.
 fn late(draw: &mut Draw) -> FoundScene {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let p = scene.frequency_rad_s;

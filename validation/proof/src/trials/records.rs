@@ -49,7 +49,16 @@ impl RecordKind {
                     || if draw.chance(share) { draw.normal() } else { 0.0 };
                 (0..n).map(|_| spike()).collect()
             }
-            Self::SawTeeth => saw_teeth(draw, n),
+            Self::SawTeeth => {
+                let alternating = draw.chance(0.5);
+                let mut sign = 1.0;
+                runs(draw, n, 4, |draw, length| {
+                    let height = draw.uniform(0.3, 1.0);
+                    sign = if alternating { -sign } else { draw.sign() };
+                    let slope = sign * height / length as f64;
+                    (0..length).map(|k| slope * (k + 1) as f64).collect()
+                })
+            }
             Self::Repeated => {
                 let times = draw.count(2, 8);
                 let values = (0..n.div_ceil(times)).map(|_| draw.normal());
@@ -141,15 +150,4 @@ fn runs(
         samples.extend(next(draw, length));
     }
     samples
-}
-
-fn saw_teeth(draw: &mut Draw, n: usize) -> Vec<f64> {
-    let alternating = draw.chance(0.5);
-    let mut sign = 1.0;
-    runs(draw, n, 4, |draw, length| {
-        let height = draw.uniform(0.3, 1.0);
-        sign = if alternating { -sign } else { draw.sign() };
-        let slope = sign * height / length as f64;
-        (0..length).map(|k| slope * (k + 1) as f64).collect()
-    })
 }

@@ -111,11 +111,6 @@ impl TrialSummary {
         all
     }
 
-    /// Share of the runs that leave their outcome open.
-    pub fn unresolved_share(&self) -> f64 {
-        self.unresolved as f64 / self.runs as f64
-    }
-
     /// Quantile of error over estimate, at a share in thousandths; not a
     /// number if there is none.
     pub fn ratio(&self, thousandths: usize) -> f64 {

@@ -36,7 +36,7 @@ pub struct CaseResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct QuantityResult {
-    /// The bound: a number, two for an interval, none where it is waived.
+    /// The bound: a number, two for an interval, null if it is waived.
     pub bound: Value,
     /// The first values.
     pub first: Vec<Extended>,
@@ -49,12 +49,12 @@ pub struct QuantityResult {
 }
 
 impl CaseResult {
-    /// Whether the case passed.
+    /// True if the case passed.
     pub fn passed(&self) -> bool {
         self.verdict == CaseVerdict::Pass
     }
 
-    /// Quantities that are compared: all but those that are waived.
+    /// Quantities whose bound is not waived.
     pub fn compared(
         &self,
     ) -> impl Iterator<Item = (&String, &QuantityResult)> {
@@ -127,11 +127,6 @@ fn digits(check: &Check) -> usize {
         Bound::Exact => 0.0,
         _ => 1e-3,
     };
-    supported_digits(relative)
-}
-
-/// Significant digits to print of a number with this relative error.
-pub fn supported_digits(relative: f64) -> usize {
     let mut digits = 1;
     let mut unit = 0.1;
     while digits < MOST_DIGITS && relative < unit {

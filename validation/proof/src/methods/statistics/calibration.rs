@@ -138,7 +138,7 @@ fn covers(
 /// Replicates of the null of one sample whose smallest value is its shift.
 const NULL_REPLICATES: u64 = 400;
 
-/// Whether the test with the smallest value as shift rejects at 5 %: by the
+/// True if the test with the smallest value as shift rejects at 5 %: by the
 /// null that the command simulates, or (wrong) by the table, or by the
 /// dispersion above the smallest value.
 fn above_smallest(wrong: Option<WrongModel>, values: &[f64]) -> Result<bool> {
@@ -187,8 +187,16 @@ pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
         let own = fit(&sample, 0.0, method)?.distribution;
         Ok((own.dispersion() / dispersion, own.log_mean() / dispersion))
     })?;
-    let known = || mean_of_deviation(n as f64, estimator);
-    let ratio = dispersion_ratio.unwrap_or_else(known);
+    // E(s)/sigma of a normal sample: c4(n) = sqrt(2/(n - 1)) Gamma(n/2)/
+    // Gamma((n - 1)/2), times sqrt((n - 1)/n) for divisor n.
+    let size = n as f64;
+    let gammas = lgamma(0.5 * size) - lgamma(0.5 * (size - 1.0));
+    let c4 = (2.0 / (size - 1.0)).sqrt() * exp(gammas);
+    let divided = match estimator {
+        FitMethod::MaximumLikelihood => c4 * ((size - 1.0) / size).sqrt(),
+        _ => c4,
+    };
+    let ratio = dispersion_ratio.unwrap_or(divided);
     let (ratios, means): (Vec<f64>, Vec<f64>) = fits.into_iter().unzip();
     let both = [("dispersion", ratios, ratio), ("log-mean", means, log_mean)];
     for (name, values, expected) in both {
@@ -198,15 +206,4 @@ pub fn bias(context: &Context, answer: &mut Reply) -> Result<()> {
         put_mean(answer, both, variance, [trials, reference], rounding);
     }
     Ok(())
-}
-
-/// E(s)/sigma of a normal sample: c4(n) = sqrt(2/(n - 1)) Gamma(n/2)/
-/// Gamma((n - 1)/2), times sqrt((n - 1)/n) for divisor n.
-fn mean_of_deviation(n: f64, estimator: FitMethod) -> f64 {
-    let c4 = (2.0 / (n - 1.0)).sqrt()
-        * exp(lgamma(0.5 * n) - lgamma(0.5 * (n - 1.0)));
-    match estimator {
-        FitMethod::MaximumLikelihood => c4 * ((n - 1.0) / n).sqrt(),
-        _ => c4,
-    }
 }

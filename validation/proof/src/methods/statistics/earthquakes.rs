@@ -30,10 +30,10 @@ const VALUES: Csv = Csv::new("oracles/earthquakes.csv");
 /// Dispersion of the simulated capacities; their median is 1.
 const DISPERSION: f64 = 0.5;
 
-/// Replicates of an interval: they know a standard error to 5 %.
+/// Replicates of an interval: they give a standard error to 5 %.
 const REPLICATES: usize = 200;
 
-/// The hazard 1e-4 x^-2.5: all of it, and where the law above 1 is.
+/// The hazard 1e-4 x^-2.5: complete, and for the law above 1.
 const HAZARD: &str = "intensity,annual_frequency\n1e-6,1e11\n1e6,1e-19\n";
 const HAZARD_ABOVE: &str = "intensity,annual_frequency\n\
     1.01,9.754310265758153e-05\n100,1e-9\n";
@@ -48,12 +48,12 @@ const ABOVE_SHIFT: f64 = 1.952_210_448_109_6e-5;
 enum RateMeasure {
     /// Interval of the median of counts, of stripes of the same records.
     Counts,
-    /// The test of a slope on an attribute of the earthquake that has none.
+    /// The test of a slope on an irrelevant attribute of the earthquake.
     Slope,
 }
 
-/// Share of simulated suites whose interval holds the truth, or whose slope
-/// on an attribute without meaning is rejected at 5 %.
+/// Share of simulated suites whose interval covers the truth, or whose slope
+/// on an irrelevant attribute is rejected at 5 %.
 pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: RateMeasure, suite: SuiteShape, intraclass: f64, trials: u64,
@@ -74,7 +74,7 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
     Ok(())
 }
 
-/// Shares of simulated suites whose intervals of a fit hold the truth: of the
+/// Shares of simulated suites whose intervals of a fit cover the truth: of the
 /// median, the dispersion, the probability at the intensity 0.7, and the
 /// annual frequencies under the hazard 1e-4 x^-2.5 without a shift and of the
 /// same law above 1.
@@ -132,8 +132,8 @@ impl Simulated {
         self.logs.iter().map(|y| exp(*y)).collect()
     }
 
-    /// Whether the interval of the median of counts holds it, of five stripes
-    /// of the same records.
+    /// True if the interval of the median of counts, from five stripes of the
+    /// same records, covers it.
     fn counts_hold(&self, seed: u64) -> Result<bool> {
         let values = self.values();
         let draws = Draws { replicates: REPLICATES, seed };
@@ -148,7 +148,7 @@ impl Simulated {
         Ok(found.median.interval().is_some_and(|ends| ends.holds(1.0)))
     }
 
-    /// Whether the intervals of a fit hold the truths, by name.
+    /// For each interval of a fit, its name and whether it covers the truth.
     fn fit_holds(
         &self,
         wrong: Option<WrongModel>,

@@ -269,12 +269,12 @@ fn wilson(
     Interval::try_new(middle - half, middle + half)
 }
 
-/// Exact intervals of probabilities, alone or of many at once.
+/// Exact intervals of single probabilities or of many together.
 pub fn intervals(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         /// Successes and trials.
         counts: Vec<(usize, usize)>,
-        /// How many such probabilities are held at once.
+        /// Number of probabilities that are covered together.
         together: usize,
     }
     for (successes, trials) in counts {

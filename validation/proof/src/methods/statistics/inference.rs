@@ -1,10 +1,9 @@
-//! Coverage of the study's inference on simulated suites whose truth is
-//! known.
+//! Coverage of the study's intervals on simulated suites with a known truth.
 //!
-//! A suite is like a recorded one: 86 records of 22 earthquakes, or 44 of 16.
-//! The normal score of record r in block b at level l is the sum of a part
-//! that its earthquake shares, with [`SHARED`] of the variance, and one of
-//! its own. Each part is correlated by [`BLOCKS_ALIKE`] between two blocks,
+//! A suite resembles a recorded one: 86 records of 22 earthquakes, or 44 of
+//! 16. The normal score of record r in block b at level l is the sum of a part
+//! that its earthquake shares, with [`SHARED`] of the variance, and a part of
+//! the record. Each part is correlated by [`BLOCKS_ALIKE`] between two blocks,
 //! and by [`LEVELS_ALIKE`] from level to level of a block.
 
 use anyhow::Result;
@@ -24,7 +23,7 @@ use serde::Deserialize;
 use super::truths::{SuiteShape, percentiles, share, trials};
 use crate::methods::method::{Context, Reply, WrongModel};
 
-/// Replicates of an interval: they know a standard error to 5 %.
+/// Replicates of an interval: they give a standard error to 5 %.
 const REPLICATES: usize = 200;
 
 /// Share of the variance that the records of an earthquake share.
@@ -38,7 +37,7 @@ const BLOCKS_ALIKE: f64 = 0.9;
 const BLOCKS: usize = 4;
 const LEVELS: usize = 13;
 
-/// Cells apart that a distance is the mean of.
+/// Step between the cells over which a distance is averaged.
 const APART: usize = 6;
 
 /// Spread of a paired ratio.
@@ -50,7 +49,7 @@ const SURVIVORS: usize = 12;
 /// Probability of a counted event.
 const PROBABILITY: f64 = 0.3;
 
-/// What an interval is of.
+/// The quantity of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum IntervalMeasure {
@@ -60,20 +59,20 @@ enum IntervalMeasure {
     CellShare,
     /// Median of few survivors, by order statistics.
     FewSurvivors,
-    /// Probability of an event that records have or not.
+    /// Probability of an event over records.
     Count,
     /// Mean distance from a lognormal over levels and blocks.
     Distance,
 }
 
-/// Share of the simulated suites whose interval holds the truth.
+/// Share of the simulated suites whose interval covers the truth.
 pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         measure: IntervalMeasure,
         /// The recorded suite that the simulated ones are like.
         like: SuiteShape,
         trials: u64,
-        /// Share of the suites in which the interval is to hold the truth.
+        /// Expected share.
         nominal: f64,
     }
     let clusters = like.clusters();
@@ -134,9 +133,9 @@ fn add_field(stream: &mut Stream, weight: f64, scores: &mut [f64]) {
 /// Simulated suites of one case.
 struct Trials {
     streams: Streams,
-    /// Whose records are dependent.
+    /// Clusters of dependent records.
     clusters: Clusters,
-    /// What is resampled.
+    /// Units of resampling.
     drawn: Clusters,
     wrong: Option<WrongModel>,
 }
@@ -227,7 +226,7 @@ impl Trials {
         })
     }
 
-    /// Whether the interval of the share of cells within 5 % holds it.
+    /// True if the interval of the share of cells within 5 % covers it.
     fn share(&self, trial: u64, scores: &[Vec<f64>]) -> bool {
         let count = scores.len();
         // True medians from a normal law, nine of ten cells within 5 %.

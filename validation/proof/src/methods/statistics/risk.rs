@@ -55,7 +55,7 @@ pub fn total(context: &Context, answer: &mut Reply) -> Result<()> {
             let [shift, mu, beta, bias, s, x, value] = row.numbers(1)?;
             let records = Lognormal::try_new(shift, mu, beta)?;
             let right = TotalFragility::try_new(records, bias, s)?;
-            // The part above the onset alone has the larger dispersion.
+            // Only the part above the onset has the larger dispersion.
             let above = Lognormal::try_new(shift, mu, libm::hypot(beta, s))?;
             let above = above.scaled(bias)?.into();
             let wrong = WrongModel::ErrorAboveTheShift;
@@ -98,7 +98,7 @@ pub fn cornell(context: &Context, answer: &mut Reply) -> Result<()> {
 }
 
 /// Widths of the interval of a probability in scores: by the delta method,
-/// over those by drawing the records anew.
+/// over those by resampling the records.
 pub fn interval(context: &Context, answer: &mut Reply) -> Result<()> {
     const LEVEL: f64 = 0.95;
     input! { context;
@@ -150,7 +150,7 @@ const FRAGILITY: Csv = Csv::new("oracles/fragility.csv");
 /// lognormal that Eq. 7 is about; its limit and its end.
 pub fn transforms(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        /// Median as it stands in the file.
+        /// Median as the file writes it.
         median: String,
     }
     for row in FRAGILITY.rows(&median)? {
@@ -174,7 +174,7 @@ pub fn transforms(context: &Context, answer: &mut Reply) -> Result<()> {
         let six = eq6(low, high, shift)?;
         answer.put("eq6", [six], [expected]);
         let end = c_max(median, beta, shift)?;
-        // Just below its end Eq. 7 is large, at it there is none.
+        // Just below its end Eq. 7 is large; at its end it is undefined.
         if end.is_finite() {
             let beyond = eq7(median, beta, shift, end).is_err();
             let refused = context.or(WrongModel::Clamped, false, beyond);

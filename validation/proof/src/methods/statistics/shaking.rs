@@ -158,16 +158,16 @@ const DISPERSION: f64 = 0.3;
 /// Levels of each motion in g.
 const LEVELS_G: [f64; 5] = [0.22, 0.32, 0.44, 0.6, 0.85];
 
-/// A name, an estimate over the truth, and whether its interval holds the
+/// A name, an estimate over the truth, and whether its interval covers the
 /// truth.
 type Held = (&'static str, f64, bool);
 
-/// Shares of simulated sets of tests whose 90 % intervals hold the truth, and
+/// Shares of simulated sets of tests whose 90 % intervals cover the truth, and
 /// the means of the estimates; `fragilities` also compares the fragilities in
 /// PGA.
 ///
 /// ln of measured over computed capacity of a test is ln 1.1 + 0.26 u_g +
-/// 0.15 e with standard normal u of its motion and e of its own.
+/// 0.15 e with standard normal u of the motion and e of the test.
 pub fn coverage(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
         motions: usize, trials: u64, replicates: usize, fragilities: bool,

@@ -37,8 +37,8 @@ impl TryRng for StreamRng<'_> {
     }
 }
 
-/// The law of the values that are tested or fitted, in logarithms where the
-/// study takes them.
+/// The law of the tested or fitted values; in logarithms if the study takes
+/// logarithms.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(
     tag = "law",
@@ -65,7 +65,7 @@ pub(super) enum Truth {
 }
 
 impl Truth {
-    /// Samples of n values, by index; `f` of each, in that order.
+    /// `f` of samples of n values, in the order of their indices.
     pub(super) fn map<T: Send>(
         self,
         name: &str,
@@ -149,8 +149,8 @@ impl SuiteShape {
     }
 }
 
-/// The method of a fit; where this is the mistake, with the other divisor, of
-/// censored values that of the rest, and of quantiles the moments.
+/// The method of a fit; by mistake with the other divisor, of the uncensored
+/// values only, or by moments instead of quantiles.
 pub(super) fn divided(context: &Context, method: FitMethod) -> FitMethod {
     match method {
         own if !context.is(WrongModel::OtherDivisor) => own,
@@ -160,7 +160,7 @@ pub(super) fn divided(context: &Context, method: FitMethod) -> FitMethod {
     }
 }
 
-/// What each of so many trials finds, in their order.
+/// The result of each trial, in their order.
 pub(super) fn trials<T: Send>(
     count: u64,
     trial: impl Fn(u64) -> Result<T> + Sync + Send,
@@ -168,7 +168,7 @@ pub(super) fn trials<T: Send>(
     (0..count).into_par_iter().panic_fuse().map(trial).collect()
 }
 
-/// Share of what is true.
+/// Share of true values.
 pub(super) fn share(held: &[bool]) -> f64 {
     held.iter().filter(|held| **held).count() as f64 / held.len() as f64
 }

@@ -215,7 +215,7 @@ impl WideTrace {
     /// Runs a scene, with events and accuracy.
     ///
     /// # Errors
-    /// [`EngineError::Refused`] with the core's own words.
+    /// [`EngineError::Refused`] with the message of the core.
     pub fn run(
         scene: &CaseScene,
         arithmetic: Precision,

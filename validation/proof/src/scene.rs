@@ -86,7 +86,7 @@ pub enum EngineError {
     /// The code under test refuses the scene.
     #[error("scene refused: {0}")]
     Refused(String),
-    /// The run takes more work than is allowed.
+    /// The run exceeds the work limit.
     #[error("{0}")]
     Work(String),
 }
@@ -99,7 +99,7 @@ pub trait Engine: Sync {
     /// Runs a scene.
     ///
     /// # Errors
-    /// [`EngineError`] when no trace can be given.
+    /// [`EngineError`] if no trace can be given.
     fn respond(&self, scene: &CaseScene) -> EngineResult<Trace>;
 }
 

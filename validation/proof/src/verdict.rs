@@ -253,7 +253,7 @@ pub fn run_all(cases: &[Case]) -> Vec<CaseOutcome> {
 }
 
 /// A rejection by the naive integrator proves something only if that
-/// integrator passes with its rules right.
+/// integrator passes with correct rules.
 fn naive_passes(case: &Case) -> Result<()> {
     let floor = case.tolerance.naive.context(
         "a wrong algorithm is rejected without `naive`, the tolerance of the \

@@ -1,8 +1,8 @@
-//! Draws from one stream.
+//! Random numbers of several laws from one stream.
 
 use rocking_statistics::streams::{Stream, below, standard_normal};
 
-/// A stream, and what is drawn from it.
+/// A stream of random numbers.
 pub(crate) struct Draw(pub Stream);
 
 impl Draw {

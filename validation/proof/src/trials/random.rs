@@ -72,7 +72,7 @@ pub(super) fn ordinary(draw: &mut Draw) -> NamedScene {
     record(draw, scene, kind, (n, dt_s), &ORDINARY)
 }
 
-/// A scene at the ends of what is accepted.
+/// A scene at the limits of valid input.
 pub(super) fn extreme(draw: &mut Draw) -> NamedScene {
     let mut scene = block(draw, &EXTREME);
     scene.restitution = match draw.uniform(0.0, 1.0) {

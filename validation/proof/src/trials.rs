@@ -89,16 +89,12 @@ pub fn findings(
     stratum: Stratum,
     indices: &[u64],
 ) -> EngineResult<Vec<Finding>> {
-    let found = indices
-        .par_iter()
-        .map(|index| {
-            let found = trial(stratum, *index)
-                .and_then(|trial| trial.as_ref().map(compare).transpose());
-            match found {
-                Err(EngineError::Work(_)) => Ok(None),
-                found => found,
-            }
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    Ok(found.into_iter().flatten().collect())
+    let finding = |index: &u64| {
+        let trial = trial(stratum, *index);
+        match trial.and_then(|trial| trial.as_ref().map(compare).transpose()) {
+            Err(EngineError::Work(_)) => None,
+            found => found.transpose(),
+        }
+    };
+    indices.par_iter().filter_map(finding).collect()
 }

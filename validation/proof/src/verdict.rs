@@ -128,18 +128,19 @@ pub fn judge(
         let bound = bounds
             .get(name)
             .with_context(|| format!("quantity `{name}` has no bound"))?;
-        let seen = observed.get(name).cloned().unwrap_or_default();
-        let wanted = expected.get(name);
-        if wanted.is_none() && !matches!(bound, Bound::Interval(..)) {
+        let observed = observed.get(name).cloned().unwrap_or_default();
+        let expected = expected.get(name);
+        if expected.is_none() && !matches!(bound, Bound::Interval(..)) {
             bail!("quantity `{name}` has no expected value");
         }
-        let wanted = wanted.cloned().unwrap_or_default();
-        let (error, margin) = measure(bound, &seen, &wanted, floor);
+        let expected = expected.cloned().unwrap_or_default();
+        let (error, margin) = measure(bound, &observed, &expected, floor);
+        let (quantity, bound) = (name.clone(), bound.clone());
         checks.push(Check {
-            quantity: name.clone(),
-            bound: bound.clone(),
-            observed: seen,
-            expected: wanted,
+            quantity,
+            bound,
+            observed,
+            expected,
             error,
             margin,
         });

@@ -74,14 +74,9 @@ pub fn chatter(context: &Context, answer: &mut Reply) -> Result<()> {
     let first = trace.impacts.remove(0);
     let steady_s = 13.0 * dt_s;
     ensure!(first.time_s > steady_s, "impact before {steady_s} s");
-    let form = free_rocking::chatter(
-        equation,
-        alpha,
-        restitution,
-        steady / 9.81,
-        (first.time_s * p, first.speed_before_rad_s / p),
-        impacts,
-    );
+    let block = [alpha, restitution, steady / 9.81];
+    let first = (first.time_s * p, first.speed_before_rad_s / p);
+    let form = free_rocking::chatter(equation, block, first, impacts);
     answer.put_impacts(SPEEDS, &trace, [p, p], &form.impacts);
     answer.put("rest-time-p", trace.rest_s.map(|t| t * p), [form.settling_p]);
     Ok(())

@@ -75,12 +75,10 @@ impl Reply {
         listed: &[(f64, f64)],
     ) {
         let seen = trace.impacts.iter().take(listed.len());
-        let (due, due_speeds): (Vec<f64>, Vec<f64>) =
-            listed.iter().copied().unzip();
         let times = seen.clone().map(|impact| impact.time_s * rate);
-        self.put("impact-times-p", times, due);
+        self.put("impact-times-p", times, listed.iter().map(|i| i.0));
         let found = seen.map(|impact| impact.speed_before_rad_s / unit);
-        self.put(speeds, found, due_speeds);
+        self.put(speeds, found, listed.iter().map(|i| i.1));
     }
 }
 
@@ -131,8 +129,7 @@ impl Context<'_> {
     /// methods that run the core themselves.
     #[must_use]
     pub fn altered(&self, scene: &CaseScene) -> CaseScene {
-        let own = |wrong: WrongModel| wrong.altered(scene);
-        self.wrong.map_or_else(|| scene.clone(), own)
+        self.wrong.map_or_else(|| scene.clone(), |own| own.altered(scene))
     }
 
     /// The state of a scene at an instant, by a history of that interval.

@@ -98,9 +98,7 @@ pub fn free(
 /// acceleration on the side entered with speed v.
 pub fn chatter(
     model: Model,
-    alpha_rad: f64,
-    eta: f64,
-    pull: f64,
+    [alpha_rad, eta, pull]: [f64; 3],
     (time_p, speed_p): (f64, f64),
     impacts: usize,
 ) -> FreeRocking {

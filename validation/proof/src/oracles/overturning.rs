@@ -56,7 +56,7 @@ fn after_pulse(a: f64, omega: f64) -> f64 {
 pub fn mode_1_upper(omega: f64, eta: f64) -> Option<f64> {
     let need = 1.0 / (eta * eta) - 1.0;
     let mode_2 = sine_without_impact(2, omega);
-    let top = stationary(omega, mode_2);
+    let top = maximum(1.0, mode_2, |a| after_pulse(a, omega));
     let f = |a: f64| after_pulse(a, omega) - need;
     (f(top) > 0.0).then(|| bisect(top, mode_2, f))
 }
@@ -78,4 +78,18 @@ fn stationary(omega: f64, mode_2: f64) -> f64 {
         let x = (2.0 * PI - libm::asin(1.0 / a)) / omega;
         a + r - omega / libm::tanh(0.5 * x)
     })
+}
+
+/// Place of the largest value of a function with one peak, by thirds. Unlike
+/// [`stationary`] it needs no sign change, which is missing at omega < p.
+fn maximum(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let third = (high - low) / 3.0;
+        if f(low + third) < f(high - third) {
+            low += third;
+        } else {
+            high -= third;
+        }
+    }
+    0.5 * (low + high)
 }

@@ -82,7 +82,8 @@ fn a_folder_that_no_study_wrote() {
                 .expect("folder");
             std::fs::write(path, "mine\n").expect("write");
         }
-        let words = format!("cannot write input: it contains {words}, which no");
+        let words =
+            format!("cannot write input: it contains {words}, which no");
         refused("stranger", &args, &[&words]);
     }
 }

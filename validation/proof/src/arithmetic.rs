@@ -80,7 +80,7 @@ macro_rules! functions {
 
 /// Double-double whose coefficients and pi/2 were rounded to one double: a
 /// mistake that silently limits the accuracy of such an engine to 1e-17.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct RoundedConstants(DoubleDouble);
 
 impl Number for RoundedConstants {
@@ -91,6 +91,8 @@ impl Number for RoundedConstants {
     fn mul_add(self, b: Self, c: Self) -> Self {
         Self(self.0.mul_add(b.0, c.0))
     }
+
+    functions!(sqrt Number::sqrt, abs Number::abs);
 
     fn sin_cos_small(self) -> (Self, Self) {
         self.sin_cos()
@@ -105,10 +107,7 @@ impl Real for RoundedConstants {
         self.0.to_f64()
     }
 
-    functions!(
-        sqrt Real::sqrt, abs Real::abs, exp Real::exp, ln_1p Real::ln_1p,
-        asin Real::asin
-    );
+    functions!(exp Real::exp, ln_1p Real::ln_1p, asin Real::asin);
 
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.0.sin_cos();
@@ -128,7 +127,7 @@ impl Real for RoundedConstants {
 /// let third = wide(Single::ratio(1, 3));
 /// assert_eq!(third.hi(), f64::from(1.0_f32 / 3.0));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Single(f32);
 
 impl Number for Single {
@@ -144,6 +143,8 @@ impl Number for Single {
         Self(self.0.mul_add(b.0, c.0))
     }
 
+    functions!(sqrt f32::sqrt, abs f32::abs);
+
     fn sin_cos_small(self) -> (Self, Self) {
         self.sin_cos()
     }
@@ -157,10 +158,7 @@ impl Real for Single {
         f64::from(self.0)
     }
 
-    functions!(
-        sqrt f32::sqrt, abs f32::abs, exp libm::expf, ln_1p libm::log1pf,
-        asin libm::asinf
-    );
+    functions!(exp libm::expf, ln_1p libm::log1pf, asin libm::asinf);
 
     fn sin_cos(self) -> (Self, Self) {
         (Self(libm::sinf(self.0)), Self(libm::cosf(self.0)))

@@ -152,7 +152,6 @@ impl CaseScene {
 
     /// The scene under samples at an interval (s), scaled to a peak in uplift
     /// thresholds.
-    #[must_use]
     pub fn shaken(self, dt_s: f64, samples: Vec<f64>, peak: f64) -> Self {
         self.under(|threshold| {
             let mut forcing = Forcing::samples(dt_s, samples);

@@ -180,7 +180,8 @@ impl<'a> VerifySummary<'a> {
                 quantity: &check.quantity,
                 margin: check.margin,
             }));
-            *kinds.entry((outcome.case.kind.name(), verdict)).or_default() += 1;
+            *kinds.entry((outcome.case.kind.name(), verdict)).or_default() +=
+                1;
             found.passed += usize::from(outcome.verdict == CaseVerdict::Pass);
         }
         let kinds = kinds.into_iter();

@@ -127,7 +127,6 @@ impl Context<'_> {
 
     /// The scene with the mistake of a wrong model that alters the input; for
     /// methods that run the core themselves.
-    #[must_use]
     pub fn altered(&self, scene: &CaseScene) -> CaseScene {
         self.wrong.map_or_else(|| scene.clone(), |own| own.altered(scene))
     }

@@ -152,8 +152,8 @@ fn writes_scripts_and_italics_as_tspans_over_the_shapes() {
     assert!(shapes.ends_with(text), "{shapes}");
 }
 
-/// A chart of 40 by 20 px with its lower left corner at (50, 10), and one
-/// tick on each axis.
+/// A chart of 40 by 10 px with its upper left corner at (50, 2), and one tick
+/// on each axis.
 fn chart(draw: impl FnOnce(&mut Panel<'_>)) -> String {
     let tick = |at| vec![Tick { at, label: format!("*{at}*") }];
     let x = Axis::linear(0.0, 4.0, 5).with_ticks(tick(1.0)).label("x");
@@ -175,18 +175,14 @@ fn plotters_draws_a_chart_on_the_backend() {
             let (hole, zero) = ((f64::NAN, 0.1), (1.0, 0.0));
             panel.line([(0.0, 1e-3), (2.0, 0.1), hole, zero], line);
             panel.line([(2.0, 0.1), (4.0, 10.0)], line);
-            panel.band(
-                &[(0.0, 0.1, 1.0), (9.0, 0.1, 1.0)],
-                Fill::solid(Ink::Muted),
-            );
+            let band = [(0.0, 0.1, 1.0), (9.0, 0.1, 1.0)];
+            panel.band(&band, Fill::solid(Ink::Muted));
             let marks = [(3.0, 0.1), (5.0, 0.1), (3.0, -1.0)];
-            let dot = (Marker::Dot, 1.0, Ink::Text);
-            panel.marks(marks, dot);
+            panel.marks(marks, (Marker::Dot, 1.0, Ink::Text));
         })
     };
     let svg = drawn();
     assert_eq!(svg, drawn());
-    let tick = "M46.45 7l3.5 0";
     for part in [
         // The grid, then lines to the edge, the band and the mark inside.
         "<path class=\"l g\" stroke-width=\"0.6\" \
@@ -195,7 +191,8 @@ fn plotters_draws_a_chart_on_the_backend() {
          d=\"M60 12l10-5M70 7l10-5\"/>\n\
          <path class=\"m\" d=\"M50 7l40.05 0 0-5-40.05 0z\"/>\n\
          <path class=\"l r t\" stroke-width=\"2\" d=\"M80 7h0\"/>\n",
-        tick,
+        // A tick of the vertical axis.
+        "M46.45 7l3.5 0",
     ] {
         assert!(svg.contains(part), "{part} in {svg}");
     }

@@ -13,14 +13,14 @@ pub struct Figure {
     /// The words that go with it.
     pub heading: Heading,
     /// The numbers that it draws.
-    pub(super) drawn: Graphic,
+    drawn: Graphic,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
 }
 
 /// The numbers of a figure in the form in which they are drawn.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) enum Graphic {
+enum Graphic {
     Chart(Panels),
     Boxplots(Boxplots),
     /// Not kept.
@@ -79,5 +79,13 @@ impl Boxplots {
     pub fn figure(self, heading: &Heading, reading: String) -> Figure {
         let drawn = Graphic::Boxplots(self);
         Figure { heading: heading.clone(), drawn, reading }
+    }
+}
+
+impl BlockSketch {
+    /// The figure, with a sentence that says what one sees in it.
+    pub fn figure(&self, reading: String) -> Figure {
+        let (heading, drawn) = (self.heading.clone(), self.clone());
+        Figure { heading, drawn: Graphic::Sketch(drawn), reading }
     }
 }

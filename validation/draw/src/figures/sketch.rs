@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::common;
-use super::figure::{Figure, Graphic};
 use super::heading::Heading;
 use crate::canvas::{Canvas, style};
 use crate::colour::{Dash, Fill, Ink, Pen};
@@ -24,12 +23,6 @@ pub struct BlockSketch {
 }
 
 impl BlockSketch {
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(&self, reading: String) -> Figure {
-        let (heading, drawn) = (self.heading.clone(), self.clone());
-        Figure { heading, drawn: Graphic::Sketch(drawn), reading }
-    }
-
     /// `quantity,value,unit`.
     pub(super) fn csv(&self) -> String {
         let mut table = Table::new(&["quantity", "value", "unit"]);

@@ -15,7 +15,7 @@ const TOO_MANY: usize = 150_000;
 /// The texts of a drawing with the rectangle that each fills, by the table of
 /// widths.
 fn texts(svg: &str) -> Vec<(&str, Rect)> {
-    let value = |of: &'_ str, name: &str| -> Option<f64> {
+    let value = |of: &str, name: &str| -> Option<f64> {
         let (_, rest) = of.split_once(&format!(" {name}=\""))?;
         rest.split('"').next()?.parse().ok()
     };
@@ -52,10 +52,11 @@ fn texts(svg: &str) -> Vec<(&str, Rect)> {
     found.into_iter().collect::<Option<_>>().unwrap()
 }
 
-/// The figures of the recorded suites.
-fn recorded() -> Vec<Figure> {
+/// Made-up and spare figures, and those of the recorded suites.
+fn all() -> Vec<Figure> {
     let kept = rocking_fixtures::text("recorded/figures.json");
-    serde_json::from_str(kept).unwrap()
+    let kept: Vec<Figure> = serde_json::from_str(kept).unwrap();
+    [made_up::all(), spare::all(), kept].concat()
 }
 
 /// Writes each demonstration figure where `ROCKING_FIGURES` says, to be
@@ -63,8 +64,7 @@ fn recorded() -> Vec<Figure> {
 #[test]
 fn writes_them_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
-    {
+    for figure in all() {
         let name = &figure.heading.name;
         let svg = figure.svg();
         std::fs::write(format!("{folder}/{name}.svg"), svg).unwrap();
@@ -84,8 +84,7 @@ fn same_bytes_twice_below_the_limit() {
 
 #[test]
 fn svg_is_well_formed_and_has_no_number_that_is_none() {
-    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
-    {
+    for figure in all() {
         let svg = figure.svg();
         let name = &figure.heading.name;
         xml::check(&svg).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -109,8 +108,7 @@ fn says_so_in_words_where_there_is_nothing_to_draw() {
 
 #[test]
 fn text_lies_inside_the_figure() {
-    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
-    {
+    for figure in all() {
         let scene = figure.scene();
         let (width, height) = scene.size_px;
         for (text, e) in texts(&scene.finish()) {
@@ -134,8 +132,7 @@ fn text_does_not_lie_on_text() {
             || a.bottom < b.top + 1.5
             || b.bottom < a.top + 1.5
     };
-    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
-    {
+    for figure in all() {
         let svg = figure.svg();
         let texts = texts(&svg);
         for (i, (a, of_a)) in texts.iter().enumerate() {

@@ -23,9 +23,7 @@ mod sketch;
 
 pub use crate::panel::Look;
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
-pub use chart::{
-    Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, NUMBERS, Of,
-};
+pub use chart::{Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of};
 pub use fates::{FateMap, MapFate};
 pub use figure::Figure;
 pub use heading::{Heading, Motions, Place};

@@ -189,7 +189,7 @@ pub enum Of {
 }
 
 /// The usual columns of numbers.
-pub const NUMBERS: [Column; 4] =
+pub(super) const NUMBERS: [Column; 4] =
     [("x", Of::X), ("y", Of::Y), ("y_low", Of::Low), ("y_high", Of::High)];
 
 /// Significant digits of a number that is drawn: more than a drawing shows.

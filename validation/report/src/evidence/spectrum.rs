@@ -4,10 +4,8 @@ use rayon::prelude::*;
 
 use rocking_draw::colour::{Dash, Ink, Pen};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Layout, Mark, NUMBERS,
-    Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
-use rocking_draw::legend::{Entry, Sample};
 use rocking_proof::edge::edge;
 use rocking_proof::engine::Core;
 use rocking_proof::oracles::overturning;
@@ -180,10 +178,6 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
         None,
     );
     let panels = panels.chain([panel]).collect();
-    let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
-    let stocky = "lower edges in Eq. 1, *α* = 0.25 rad";
-    let legend = vec![Entry::new(Sample::Line(grey), stocky)];
-    let layout = Layout { legend, ..Layout::of(&["series"], &NUMBERS) };
     let reading = format!(
         "Mode 1 ends at omega/p = {fold:.3}; above it a safe zone opens below \
          mode 2. By |theta| >= alpha the zone opens only at 6.999. At omega/p \
@@ -191,7 +185,7 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
          {impacts} impacts; mode 1 needs a stronger pulse. Shaded: Eq. 2.",
         100.0 * (lowest - 1.0)
     );
-    Ok(Chart { heading, panels, columns: 3 }.laid_out(&layout, reading))
+    Ok(Chart { heading, panels, columns: 3 }.figure(reading))
 }
 
 /// The bands of three impacts and more; number of impacts and amplitude of
@@ -222,6 +216,10 @@ fn low_frequencies(
         let rows: Vec<_> = rows.collect();
         series.push(band(&format!("after {n} impacts"), &rows));
     }
+    // Outside the panel: for the legend of all.
+    let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
+    let words = "lower edges in Eq. 1, *α* = 0.25 rad";
+    series.push(Series::note(Mark::Across(grey), words, (0.0, 0.0)));
     let at_half = omegas.iter().position(|x| (x - 0.5).abs() < 1e-9);
     let lowest = at_half
         .and_then(|k| found[k].first())

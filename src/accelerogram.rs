@@ -97,7 +97,6 @@ impl Accelerogram {
     }
 
     /// Name by which results refer to the record.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -116,26 +115,22 @@ impl Accelerogram {
     }
 
     /// Sampling interval in s.
-    #[must_use]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
 
     /// Samples in multiples of gravity.
-    #[must_use]
     pub fn samples_g(&self) -> &[f64] {
         &self.samples_g
     }
 
     /// Time from the first to the last sample in s.
-    #[must_use]
     pub fn duration_s(&self) -> f64 {
         (self.samples_g.len() - 1) as f64 * self.dt_s
     }
 
     /// Peak ground acceleration: largest absolute sample, as given, in
     /// multiples of gravity.
-    #[must_use]
     pub fn pga_g(&self) -> f64 {
         self.samples_g.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
     }
@@ -143,7 +138,6 @@ impl Accelerogram {
     /// Peak ground velocity divided by gravity, in s: largest absolute value
     /// at a sample of the cumulative trapezoid with v(0) = 0 and no baseline
     /// correction.
-    #[must_use]
     pub fn pgv_g_s(&self) -> f64 {
         let mut sum = 0.0;
         let mut peak: f64 = 0.0;
@@ -166,7 +160,6 @@ impl Accelerogram {
     /// assert_eq!((velocity[2], displacement[2]), (1.0, 0.5));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn integrals(&self, gravity_m_s2: f64) -> (Vec<f64>, Vec<f64>) {
         let dt_s = self.dt_s;
         let (mut v, mut d) = (0.0, 0.0);
@@ -182,7 +175,6 @@ impl Accelerogram {
     }
 
     /// Peak ground velocity in m/s under gravity `gravity_m_s2`.
-    #[must_use]
     pub fn pgv_m_s(&self, gravity_m_s2: f64) -> f64 {
         self.pgv_g_s() * gravity_m_s2
     }

@@ -125,13 +125,11 @@ impl Block {
     }
 
     /// Slenderness angle alpha in rad.
-    #[must_use]
     pub fn slenderness_rad(&self) -> f64 {
         self.slenderness_rad
     }
 
     /// Frequency parameter p in rad/s.
-    #[must_use]
     pub fn frequency_rad_s(&self) -> f64 {
         self.frequency_rad_s
     }
@@ -219,13 +217,11 @@ impl Restitution {
     }
 
     /// Ratio of angular velocities, eta.
-    #[must_use]
     pub fn velocity_ratio(&self) -> f64 {
         self.0
     }
 
     /// Ratio of kinetic energies, eta squared.
-    #[must_use]
     pub fn energy_ratio(&self) -> f64 {
         self.0 * self.0
     }

@@ -50,7 +50,6 @@ impl<'a> ScaledRecord<'a> {
     }
 
     /// The record as it is, times `factor`.
-    #[must_use]
     pub fn by_factor(record: &'a Accelerogram, factor: f64) -> Self {
         Self::of(record.samples_g(), record.dt_s(), factor)
     }
@@ -83,38 +82,32 @@ impl<'a> ScaledRecord<'a> {
 
     /// The record scaled to a peak ground acceleration in multiples of
     /// gravity.
-    #[must_use]
     pub fn to_pga(record: &'a NormalisedRecord, pga_g: f64) -> Self {
         let index = Some(&record.index);
         Self { index, ..Self::of(&record.samples, record.dt_s, pga_g) }
     }
 
     /// Samples before scaling.
-    #[must_use]
     pub fn samples(&self) -> &'a [f64] {
         self.samples
     }
 
     /// Sampling interval in s.
-    #[must_use]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
 
     /// Index of the samples, if there is one.
-    #[must_use]
     pub(crate) fn index(&self) -> Option<&'a RecordIndex> {
         self.index
     }
 
     /// Factor on every sample.
-    #[must_use]
     pub fn amplitude(&self) -> f64 {
         self.factor()
     }
 
     /// Factor on every sample, in the precision of the type.
-    #[must_use]
     pub fn factor<N: Number>(&self) -> N {
         N::from_f64(self.amplitude) / N::from_f64(self.divisor)
     }
@@ -144,7 +137,6 @@ pub struct NormalisedRecord {
 
 impl NormalisedRecord {
     /// Divides the record by its peak; a record of zeros stays as it is.
-    #[must_use]
     pub fn new(record: &Accelerogram) -> Self {
         let pga_g = record.pga_g();
         let unit = if pga_g > 0.0 { pga_g } else { 1.0 };
@@ -161,39 +153,33 @@ impl NormalisedRecord {
     }
 
     /// The record's name.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Samples divided by the peak, in [-1, 1].
-    #[must_use]
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }
 
     /// Sampling interval in s.
-    #[must_use]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
 
     /// Peak ground acceleration of the record as given, multiples of
     /// gravity.
-    #[must_use]
     pub fn pga_g(&self) -> f64 {
         self.pga_g
     }
 
     /// Peak ground velocity of the record as given over gravity, in s.
-    #[must_use]
     pub fn pgv_g_s(&self) -> f64 {
         self.pgv_g_s
     }
 
     /// PGV over PGA in s: the factor, times p, from PGA/(g tan alpha) to
     /// p PGV/(g tan alpha). Not a number for a record of zeros.
-    #[must_use]
     pub fn velocity_ratio_s(&self) -> f64 {
         self.pgv_g_s / self.pga_g
     }

@@ -120,7 +120,6 @@ pub const REFINEMENT: f64 = 1e-4;
 impl Analysis {
     /// The paper's analysis: Eq. 1, overturning at alpha, 0.01 g levels, no
     /// refinement, no resurrections.
-    #[must_use]
     pub fn paper(block: Block, restitution: Restitution) -> Self {
         Self {
             block,

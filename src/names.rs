@@ -59,7 +59,6 @@ macro_rules! named {
                 [$(Self::$variant),+];
 
             /// The name.
-            #[must_use]
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name),+

@@ -22,7 +22,6 @@ pub const MOST_THREADS_A_PROCESSOR: usize = 8;
 
 /// The most threads that [`Stop::run`] starts on this machine.
 #[cfg(feature = "threads")]
-#[must_use]
 pub fn most_threads() -> usize {
     let processors = std::thread::available_parallelism();
     MOST_THREADS_A_PROCESSOR * processors.map_or(1, NonZeroUsize::get)
@@ -74,7 +73,6 @@ impl Stop {
     }
 
     /// True if the stop was requested.
-    #[must_use]
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

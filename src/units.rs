@@ -34,7 +34,6 @@ impl AccelerationUnit {
     /// );
     /// assert_eq!(AccelerationUnit::parse("furlong"), None);
     /// ```
-    #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim().to_ascii_lowercase().replace('²', "2");
         let text = text.replace("sec", "s").replace("cms/", "cm/");
@@ -59,7 +58,6 @@ impl AccelerationUnit {
     /// let unit = AccelerationUnit::CentimetrePerSecondSquared;
     /// assert_eq!(unit.per_gravity(9.81), 981.0);
     /// ```
-    #[must_use]
     pub fn per_gravity(self, gravity_m_s2: f64) -> f64 {
         match self {
             Self::Gravity => 1.0,

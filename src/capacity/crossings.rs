@@ -18,7 +18,6 @@ pub enum Capacity {
 
 impl Capacity {
     /// The intensity, plus infinity if censored.
-    #[must_use]
     pub fn im(self) -> f64 {
         match self {
             Self::Reached(im) => im,
@@ -59,13 +58,11 @@ pub struct Crossings {
 
 impl Crossings {
     /// The crossings, ascending; an infinite last one is censored.
-    #[must_use]
     pub fn all(&self) -> &[f64] {
         &self.crossings
     }
 
     /// The capacity by a rule.
-    #[must_use]
     pub fn capacity(&self, rule: InversionRule) -> Capacity {
         let c = &self.crossings;
         let im = match rule {

@@ -140,19 +140,16 @@ impl ResponseCurve {
     }
 
     /// Intensity of the onset of rocking, the first vertex.
-    #[must_use]
     pub fn onset_im(&self) -> f64 {
         self.vertices[0].0
     }
 
     /// Intensity of the last vertex, the last one that stood.
-    #[must_use]
     pub fn last_im(&self) -> f64 {
         self.vertices[self.vertices.len() - 1].0
     }
 
     /// Intensity of first overturning; `None` if the record never overturned.
-    #[must_use]
     pub fn overturning_im(&self) -> Option<f64> {
         self.overturning_im
     }
@@ -176,7 +173,6 @@ impl ResponseCurve {
     /// assert_eq!(curve.edp_at(3.0), Some(f64::INFINITY));
     /// # Ok::<(), rocking::capacity::CapacityError>(())
     /// ```
-    #[must_use]
     pub fn edp_at(&self, im: f64) -> Option<f64> {
         if self.overturning_im.is_some_and(|first| im >= first) {
             return Some(f64::INFINITY);

@@ -92,7 +92,6 @@ impl Pulse {
     }
 
     /// The shape and its parameters, in multiples of gravity.
-    #[must_use]
     pub fn kind(&self) -> PulseKind {
         self.kind.with_amplitude(self.kind.amplitude() / self.divisor)
     }
@@ -133,13 +132,11 @@ impl Pulse {
     }
 
     /// Duration in s.
-    #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.stretches().last().map_or(0.0, |(end_s, _)| *end_s)
     }
 
     /// Peak ground acceleration over g.
-    #[must_use]
     pub fn pga_g(&self) -> f64 {
         let form = self.form();
         if form.is_peak {
@@ -150,7 +147,6 @@ impl Pulse {
     }
 
     /// Peak ground velocity over g in s, with v(0) = 0.
-    #[must_use]
     pub fn pgv_g_s(&self) -> f64 {
         match self.form::<f64>().velocity {
             Velocity::Peak(peak) => peak,
@@ -159,7 +155,6 @@ impl Pulse {
     }
 
     /// Acceleration over g at `t_s`; zero outside the pulse.
-    #[must_use]
     pub fn acceleration_g(&self, t_s: f64) -> f64 {
         self.form().acceleration_g(t_s)
     }

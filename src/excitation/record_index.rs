@@ -43,7 +43,6 @@ pub(crate) struct Window(usize);
 
 impl RecordIndex {
     /// Index of the samples of a record, before scaling.
-    #[must_use]
     pub fn new(samples: &[f64]) -> Self {
         let intervals = samples.len().saturating_sub(1);
         let peak = |first: usize| {

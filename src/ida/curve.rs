@@ -24,7 +24,6 @@ pub struct IdaPoint {
 
 impl IdaPoint {
     /// Peak |theta|/alpha; infinite when overturned.
-    #[must_use]
     pub fn edp(&self) -> f64 {
         self.outcome.edp()
     }
@@ -44,7 +43,6 @@ pub struct FirstOverturning {
 
 impl FirstOverturning {
     /// The overturning intensity: refined, or the level.
-    #[must_use]
     pub fn im(&self) -> f64 {
         self.refined.map_or(self.scanned_im, |point| point.im)
     }
@@ -127,7 +125,6 @@ impl IdaCurve {
     }
 
     /// Intensities of `points`.
-    #[must_use]
     pub fn ims(&self) -> Vec<f64> {
         self.points.iter().map(|point| point.im).collect()
     }
@@ -139,13 +136,11 @@ impl IdaCurve {
 
     /// Factor from PGA/(g tan alpha) to p PGV/(g tan alpha) for a block of
     /// frequency parameter p.
-    #[must_use]
     pub fn velocity_factor(&self, frequency_rad_s: f64) -> f64 {
         frequency_rad_s * self.velocity_ratio_s
     }
 
     /// Levels above the first overturning at which the block stands again.
-    #[must_use]
     pub fn resurrections(&self) -> usize {
         let stands = |point: &&IdaPoint| !point.outcome.is_overturned();
         self.above.iter().filter(stands).count()

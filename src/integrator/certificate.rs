@@ -60,7 +60,6 @@ pub struct Clearance {
 
 impl Clearance {
     /// True if the error cannot turn the decision. NaN is not clear.
-    #[must_use]
     pub fn is_clear(&self) -> bool {
         self.ratio >= CLEARANCE
     }
@@ -104,13 +103,11 @@ impl Default for Certificate {
 
 impl Certificate {
     /// The least clear decision of a kind.
-    #[must_use]
     pub fn of(&self, decision: Decision) -> Clearance {
         self.least[decision as usize]
     }
 
     /// The least clear decision of all.
-    #[must_use]
     pub fn least(&self) -> Clearance {
         let [first, rest @ ..] = self.least;
         rest.into_iter().fold(first, |least, next| {
@@ -124,7 +121,6 @@ impl Certificate {
     }
 
     /// True if the error can turn no decision.
-    #[must_use]
     pub fn is_clear(&self) -> bool {
         self.least.iter().all(Clearance::is_clear)
     }

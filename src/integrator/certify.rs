@@ -132,7 +132,6 @@ impl CertifiedFate {
     }
 
     /// True if overturning in double precision differs from `outcome`.
-    #[must_use]
     pub fn wrong_in_double(&self) -> bool {
         self.outcome.is_overturned() != self.double.is_overturned()
     }

@@ -64,7 +64,6 @@ pub(crate) struct Dynamics<N> {
 ///
 /// The divisor of the dimensionless intensity PGA/(g tan alpha) is this
 /// number, so that an intensity of 1 is the threshold to the last bit.
-#[must_use]
 pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
     match model {
         Model::Nonlinear => libm::tan(block.slenderness_rad()),

@@ -42,7 +42,6 @@ impl<'a> Scene<'a> {
     /// assert_eq!(free.initial_ratio, 0.5);
     /// # Ok::<(), rocking::block::BlockError>(())
     /// ```
-    #[must_use]
     pub fn new(
         block: Block,
         restitution: Restitution,
@@ -101,7 +100,6 @@ pub enum Outcome<N = f64> {
 impl Outcome {
     /// Engineering demand parameter: peak |theta|/alpha, infinite when
     /// overturned, zero without uplift.
-    #[must_use]
     pub fn edp(&self) -> f64 {
         match self {
             Self::NoUplift => 0.0,
@@ -113,7 +111,6 @@ impl Outcome {
 
 impl<N> Outcome<N> {
     /// Its name: `no-uplift`, `rocked` or `overturned`.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::NoUplift => "no-uplift",
@@ -123,7 +120,6 @@ impl<N> Outcome<N> {
     }
 
     /// True when the block overturned.
-    #[must_use]
     pub fn is_overturned(&self) -> bool {
         matches!(self, Self::Overturned { .. })
     }
@@ -171,7 +167,6 @@ named! {
 
 impl Side {
     /// +1 or -1.
-    #[must_use]
     pub fn sign(self) -> f64 {
         match self {
             Self::Positive => 1.0,
@@ -306,7 +301,6 @@ pub struct Response<N = f64> {
 impl<N> Response<N> {
     /// The name of the outcome; `unresolved` if the error of the run may have
     /// turned a decision or was not assessed.
-    #[must_use]
     pub fn outcome_name(&self) -> &'static str {
         match self.assessment() {
             Assessment::Clear => self.outcome.name(),
@@ -321,7 +315,6 @@ impl<N> Response<N> {
     }
 
     /// Whether outcome and peak are resolved in this precision.
-    #[must_use]
     pub fn assessment(&self) -> Assessment {
         match self.certificate {
             None => Assessment::NotAssessed,

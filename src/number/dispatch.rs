@@ -71,7 +71,6 @@ pub trait WithSimd {
 
 impl Isa {
     /// Levels that this machine has, the baseline first.
-    #[must_use]
     pub fn available() -> Vec<Isa> {
         #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
         let mut levels = vec![Isa(IsaLevel::Baseline)];
@@ -89,7 +88,6 @@ impl Isa {
     }
 
     /// The best level that this machine has.
-    #[must_use]
     pub fn best() -> Isa {
         use std::sync::OnceLock;
         static BEST: OnceLock<Isa> = OnceLock::new();
@@ -99,7 +97,6 @@ impl Isa {
     }
 
     /// The level's name: `baseline`, `avx2` or `avx512`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
             IsaLevel::Baseline => "baseline",
@@ -111,7 +108,6 @@ impl Isa {
     }
 
     /// True if lanes are faster than single numbers.
-    #[must_use]
     pub fn is_wide(self) -> bool {
         // Without fused operations lanes gain nothing.
         cfg!(not(any(target_arch = "x86_64", target_family = "wasm")))

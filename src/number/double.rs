@@ -68,13 +68,11 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
 
 impl DoubleDouble {
     /// The double nearest to the number.
-    #[must_use]
     pub fn hi(self) -> f64 {
         self.hi
     }
 
     /// The number less the nearest double.
-    #[must_use]
     pub fn lo(self) -> f64 {
         self.lo
     }
@@ -87,7 +85,6 @@ impl DoubleDouble {
     /// assert_eq!((sum.hi(), sum.lo()), (1.0, 1e-20));
     /// ```
     #[inline]
-    #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
         let hi = a + b;
         if !hi.is_finite() {

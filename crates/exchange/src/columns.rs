@@ -111,7 +111,6 @@ impl Layout {
     ///
     /// # Panics
     /// If there is no column of this name.
-    #[must_use]
     pub fn place(&self, column: &str) -> usize {
         self.names().position(|name| name == column).expect("a known column")
     }

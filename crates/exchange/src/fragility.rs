@@ -192,7 +192,6 @@ pub(crate) fn crossed_by(
 /// assert!((pgv - 9.81 * 0.151_135_218_058 / 3.0).abs() < 1e-11);
 /// # Ok::<(), rocking::block::BlockError>(())
 /// ```
-#[must_use]
 pub fn unit_intensity(
     intensity: Intensity,
     block: &Block,
@@ -213,7 +212,6 @@ pub fn unit_intensity(
 /// let words = unstated_origin(86, &IntensityMeasure::PGA);
 /// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
 /// ```
-#[must_use]
 pub fn unstated_origin(capacities: usize, im: &IntensityMeasure) -> String {
     let measure = im.words();
     format!("{capacities} capacities in {measure}, response level not stated")

@@ -103,7 +103,6 @@ pub struct Curves {
 
 impl Curves {
     /// The curves without their records, in the order of the table.
-    #[must_use]
     pub fn into_curves(self) -> Vec<ResponseCurve> {
         self.curves.into_iter().map(|(_, curve)| curve).collect()
     }
@@ -129,7 +128,6 @@ impl Curves {
     }
 
     /// The measure at an intensity of the curves.
-    #[must_use]
     pub fn measured(&self, im: f64) -> f64 {
         if self.squared { im * im } else { im }
     }
@@ -139,7 +137,6 @@ impl IdaTable {
     /// The table of the curves of an analysis. The pair of texts is the
     /// processing of the records and the program; `known` gives the codes of
     /// the remarks on a record, and its earthquake, empty if unknown.
-    #[must_use]
     pub fn of(
         curves: &[IdaCurve],
         analysis: &Analysis,
@@ -194,7 +191,6 @@ impl IdaTable {
     }
 
     /// The CSV text.
-    #[must_use]
     pub fn csv(&self) -> String {
         let s = &self.setting;
         let cell = |row: &IdaRow, column| match column {
@@ -283,21 +279,18 @@ impl IdaTable {
 
     /// The earthquakes of the records, in the order of the table; `None` if
     /// the table does not state them.
-    #[must_use]
     pub fn events(&self) -> Option<Vec<&str>> {
         let events = self.by_record().map(|rows| rows[0].event.as_str());
         events.map(|event| Some(event).filter(|e| !e.is_empty())).collect()
     }
 
     /// The records by earthquake, if the table states it.
-    #[must_use]
     pub fn clusters(&self) -> Clusters {
         let records = || Clusters::singletons(self.records().count());
         self.events().map_or_else(records, Clusters::from_labels)
     }
 
     /// Slenderness angle in rad of the block; `None` if it is adjusted.
-    #[must_use]
     pub fn alpha_rad(&self) -> Option<f64> {
         let first = self.rows.first().map(|row| row.alpha_rad);
         first.filter(|_| self.setting.by == Adjust::RecordScaling)
@@ -399,7 +392,6 @@ impl Setting {
 
 impl IdaRow {
     /// Whether it is the refined end of the bracket of a first overturning.
-    #[must_use]
     pub fn is_refined(&self) -> bool {
         self.outcome == REFINED
     }

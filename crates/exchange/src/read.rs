@@ -61,7 +61,6 @@ pub struct Cells<'a> {
 
 impl Cells<'_> {
     /// A refusal of the line.
-    #[must_use]
     pub fn error(&self, message: impl Display) -> FileError {
         FileError::new(self.path, self.line, message)
     }
@@ -70,14 +69,12 @@ impl Cells<'_> {
     ///
     /// # Panics
     /// As [`Layout::place`].
-    #[must_use]
     pub fn text(&self, column: &str) -> &str {
         let place = self.places[self.layout.place(column)];
         place.map_or("", |place| &self.fields[place])
     }
 
     /// A refusal of one cell.
-    #[must_use]
     pub fn refuse(&self, column: &str, expected: impl Display) -> FileError {
         let found = self.text(column);
         self.error(format_args!(
@@ -126,7 +123,6 @@ pub fn reader<R: Read>(
 }
 
 /// A refusal of text that is not CSV; `path` is its name in messages.
-#[must_use]
 pub fn no_csv(path: &Path, error: csv::Error) -> FileError {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => FileError::new(path, None, error),

@@ -228,14 +228,12 @@ impl SampleFile {
     }
 
     /// Names of the records of the values; empty if a value has no name.
-    #[must_use]
     pub fn records(&self) -> Vec<&str> {
         let names = self.names.iter().map(Option::as_deref);
         names.collect::<Option<_>>().unwrap_or_default()
     }
 
     /// Earthquakes of the values; empty if the file does not state them.
-    #[must_use]
     pub fn events(&self) -> Vec<&str> {
         let events = self.events.iter().map(Option::as_deref);
         events.collect::<Option<_>>().unwrap_or_default()
@@ -252,13 +250,11 @@ impl SampleFile {
     }
 
     /// Description of the values in the file.
-    #[must_use]
     pub fn of(&self) -> Option<&str> {
         self.of.as_deref()
     }
 
     /// The measure of the values, in the words of the file.
-    #[must_use]
     pub fn unit(&self) -> Option<&str> {
         self.of().and_then(|of| of.split(" at EDP ").next())
     }
@@ -285,13 +281,11 @@ impl SampleFile {
     }
 
     /// The values in the order of the lines, infinite if censored.
-    #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// The values by earthquake, if the file states it.
-    #[must_use]
     pub fn clusters(&self) -> Clusters {
         match self.events().as_slice() {
             [] => Clusters::singletons(self.values.len()),

@@ -18,13 +18,11 @@ pub struct Table {
 
 impl Table {
     /// A table with this header line, without cells that need quotes.
-    #[must_use]
     pub fn headed(line: &str) -> Self {
         Self::new(&line.split(',').collect::<Vec<_>>())
     }
 
     /// A table with the cells of its header line.
-    #[must_use]
     pub fn new(header: &[&str]) -> Self {
         let mut csv = csv::WriterBuilder::new();
         let csv = csv.flexible(true).from_writer(vec![]);
@@ -34,14 +32,12 @@ impl Table {
     }
 
     /// A table of the registry; each row ends with the schema number.
-    #[must_use]
     pub fn of(layout: &Layout) -> Self {
         Self::with_schema(&layout.names().collect::<Vec<_>>())
     }
 
     /// A table whose last column is the schema number, which
     /// [`row`](Self::row) writes.
-    #[must_use]
     pub fn with_schema(header: &[&str]) -> Self {
         Self { last: Some(SCHEMA.to_string()), ..Self::new(header) }
     }
@@ -59,7 +55,6 @@ impl Table {
     }
 
     /// The CSV text.
-    #[must_use]
     pub fn finish(self) -> String {
         // Only text was written.
         let bytes = self.csv.into_inner().unwrap_or_default();
@@ -68,20 +63,17 @@ impl Table {
 }
 
 /// The rows of a table's text, without its header line.
-#[must_use]
 pub fn body(text: &str) -> &str {
     text.split_once('\n').map_or("", |(_, rows)| rows)
 }
 
 /// A number as a cell: at most nine significant digits, `inf` or `-inf`; empty
 /// for NaN.
-#[must_use]
 pub fn number(x: f64) -> String {
     digits(x, 9)
 }
 
 /// A number as a cell with at most `digits` significant digits.
-#[must_use]
 pub fn digits(x: f64, digits: usize) -> String {
     if x.is_nan() {
         return String::new();
@@ -99,13 +91,11 @@ pub fn digits(x: f64, digits: usize) -> String {
 }
 
 /// A number that may be missing, as a cell.
-#[must_use]
 pub fn optional(x: Option<f64>) -> String {
     x.map_or_else(String::new, number)
 }
 
 /// Cells of a line of CSV, without line breaks in quoted cells.
-#[must_use]
 pub fn cells(line: &str) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());

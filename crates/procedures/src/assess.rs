@@ -214,7 +214,6 @@ pub struct ObjectAssessment {
 
 impl ObjectAssessment {
     /// The intensity measure with the least dispersion, and its dispersion.
-    #[must_use]
     pub fn best_im(&self) -> Option<(&str, f64)> {
         let measures = self.ranking.measures.iter();
         let known = measures
@@ -242,7 +241,6 @@ pub struct Answer {
 impl Answer {
     /// Annual frequency of damage in 1/year, the lower bound of truncation;
     /// none without a hazard curve.
-    #[must_use]
     pub fn annual_frequency(&self) -> Option<Estimate> {
         let risk = self.risk.as_ref()?;
         let point = Estimate::exact(risk.annual_frequency_truncation_lower);
@@ -252,14 +250,12 @@ impl Answer {
 
     /// Mean return period of damage in years, the reciprocal of the annual
     /// frequency; none without a hazard curve.
-    #[must_use]
     pub fn return_period_years(&self) -> Option<Estimate> {
         Some(self.annual_frequency()?.map(f64::recip))
     }
 
     /// Probability of damage in the years of the assessment; none without a
     /// hazard curve.
-    #[must_use]
     pub fn probability(&self) -> Option<Estimate> {
         let risk = self.risk.as_ref()?;
         let point = Estimate::exact(risk.probability_truncation_lower);

@@ -105,7 +105,6 @@ pub enum ComparisonError {
 
 impl ComparisonError {
     /// The invalid sample, and the place of the value.
-    #[must_use]
     pub fn place(&self) -> Option<(SampleSide, Option<usize>)> {
         match *self {
             Self::Unnamed { side, .. } | Self::Numbered(side) => {

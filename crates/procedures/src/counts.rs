@@ -255,7 +255,6 @@ impl RecordOutcome {
 
     /// The counts at each intensity; none if some record has no outcome at
     /// one, since the other outcomes say nothing about it.
-    #[must_use]
     pub fn stripes(outcomes: &[Self]) -> Option<Vec<Stripe>> {
         let stripes = counted(outcomes, |_| 1);
         let each = stripes.len() * by_record(outcomes).len();
@@ -277,7 +276,6 @@ impl RecordOutcome {
     /// let back = [of(1.0, true), of(2.0, false), of(3.0, true)];
     /// assert_eq!(RecordOutcome::brackets(&back), [(1.0, 2.0)]);
     /// ```
-    #[must_use]
     pub fn brackets(outcomes: &[Self]) -> Vec<(f64, f64)> {
         let bracket = |own: Vec<&Self>| {
             let mut ims: Vec<f64> = own.iter().map(|one| one.im).collect();

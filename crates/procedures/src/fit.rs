@@ -320,7 +320,6 @@ pub struct Transformation {
 impl Transformation {
     /// Eqs. 5 to 7 of an unshifted median and dispersion, and of unshifted
     /// 16 and 84 % quantiles, above `shift`, all intensities in one unit.
-    #[must_use]
     pub fn new(
         (median, dispersion): (Option<f64>, Option<f64>),
         (im16, im84): (Option<f64>, Option<f64>),

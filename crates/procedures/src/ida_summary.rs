@@ -63,7 +63,6 @@ pub struct CurveSummary {
 /// assert_eq!(summary.resurrections, None);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
 pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
     let resurrections = analysis.resurrections.map(|_| 0);
     let mut summary = IdaSummary { resurrections, ..IdaSummary::default() };

@@ -83,7 +83,6 @@ pub struct LawFragility {
 
 impl LawFragility {
     /// Origin of the fragilities of the law, in words.
-    #[must_use]
     pub fn origin(edp: f64) -> String {
         let edp = edp.is_finite().then(|| format!("EDP {edp}"));
         let what = edp.as_deref().unwrap_or("overturning");

@@ -68,14 +68,12 @@ impl Default for ModelError {
 
 impl ModelError {
     /// No model error, only the scatter of the records.
-    #[must_use]
     pub fn none() -> Self {
         let (bias, dispersion) = (Estimate::exact(1.0), Estimate::exact(0.0));
         Self { bias, dispersion }
     }
 
     /// Of an object whose slenderness was fitted to its own tests.
-    #[must_use]
     pub fn fitted() -> Self {
         Self::measured(0.94, 1.06)
     }
@@ -98,7 +96,6 @@ impl ModelError {
     }
 
     /// This error with another bias or dispersion, if one is given.
-    #[must_use]
     pub fn or(
         self,
         bias: Option<ModelErrorPart>,
@@ -136,7 +133,6 @@ impl ModelError {
     }
 
     /// Whether this is no error.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::none()
     }
@@ -206,7 +202,6 @@ impl BootstrapFits {
     /// ranges from the stream of `name`: their intervals then include the
     /// uncertainty of records and model. A dispersion drawn below 0.01 counts
     /// as 0.
-    #[must_use]
     pub fn with(mut self, error: &ModelError, name: &str) -> Self {
         if error.is_none() {
             return self;

@@ -32,13 +32,11 @@ pub struct Covariate {
 
 impl Covariate {
     /// Magnitudes.
-    #[must_use]
     pub fn magnitude(values: Vec<f64>) -> Self {
         Self { name: "magnitude".into(), values }
     }
 
     /// The logarithms of distances.
-    #[must_use]
     pub fn ln_distance(distances: Vec<f64>) -> Self {
         let values = distances.into_iter().map(log).collect();
         Self { name: "ln distance".into(), values }

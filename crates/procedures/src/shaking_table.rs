@@ -49,7 +49,6 @@ impl TestFate {
     /// assert_eq!(TestFate::of_cell(""), Some(TestFate::Unknown));
     /// assert_eq!(TestFate::of_cell("yes"), None);
     /// ```
-    #[must_use]
     pub fn of_cell(cell: &str) -> Option<Self> {
         match cell {
             "1" => Some(Self::Overturned),
@@ -62,7 +61,6 @@ impl TestFate {
 
 impl ShakingTest {
     /// The positive numbers among cells, by the names of their columns.
-    #[must_use]
     pub fn columns(cells: &BTreeMap<String, String>) -> BTreeMap<String, f64> {
         let number = |(name, cell): (&String, &String)| {
             Some((name.clone(), positive(cell)?))

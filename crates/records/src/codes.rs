@@ -19,7 +19,6 @@ macro_rules! coded {
 
         impl $enum {
             /// Short name, the same in every version.
-            #[must_use]
             pub fn code(&self) -> &'static str {
                 match self {
                     $(Self::$variant { .. } => $code),+

@@ -104,13 +104,11 @@ impl Format {
     /// let at2 = Format::named("at2").expect("a format");
     /// assert_eq!((at2.files, at2.source), ("AT2", "PEER"));
     /// ```
-    #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         Self::ALL.iter().copied().find(|format| format.name == name)
     }
 
     /// All formats, those with the most complete header first, then by name.
-    #[must_use]
     pub fn by_name() -> Vec<&'static Self> {
         let mut all = Self::ALL.to_vec();
         all.sort_by_key(|format| (format.header, format.name));

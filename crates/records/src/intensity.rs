@@ -132,7 +132,6 @@ macro_rules! measures {
             }
 
             /// The value of the measure of this name.
-            #[must_use]
             pub fn scalar(&self, name: &str) -> Option<f64> {
                 match name {
                     $(stringify!($scalar) => Some(self.$scalar),)+
@@ -168,7 +167,6 @@ const LARGEST_PGD_M: f64 = 5.0;
 impl Measures {
     /// Whether the displacement comes from a drifting baseline: PGD above 5 m,
     /// which no processed record of an earthquake has.
-    #[must_use]
     pub fn drifts(&self) -> bool {
         !(self.pgd_m <= LARGEST_PGD_M)
     }
@@ -202,7 +200,6 @@ impl Measures {
     }
 
     /// The geometric mean of each measure of two components.
-    #[must_use]
     pub fn geometric_mean(&self, other: &Self) -> Self {
         self.with(other, |a, b| (a * b).sqrt())
     }

@@ -96,13 +96,11 @@ impl Processing {
     }
 
     /// Whether the record stays as it is.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         !self.demean && self.high_pass_hz.is_none()
     }
 
     /// Duration of zeros at each end, in s.
-    #[must_use]
     pub fn padding_s(&self) -> f64 {
         self.high_pass_hz.map_or(0.0, |hz| PADDING * ORDER / hz)
     }

@@ -203,7 +203,6 @@ pub struct RemarkInput<'a> {
 
 impl<'a> RemarkInput<'a> {
     /// A record, the name of its pair, and the remarks of its reading.
-    #[must_use]
     pub fn of(
         record: &Accelerogram,
         pair: Option<&'a str>,
@@ -225,7 +224,6 @@ impl<'a> RemarkInput<'a> {
 /// assert_eq!(codes, ["units"]);
 /// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
 /// ```
-#[must_use]
 pub fn remarks(record: &Accelerogram) -> Vec<Remark> {
     let mut found = Vec::new();
     let (dt_s, samples) = (record.dt_s(), record.samples_g());
@@ -327,7 +325,6 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
 /// Remarks on each of several records: those of their reading, [`remarks`],
 /// components of a pair that are not alike, and records that seem to be the
 /// same recording.
-#[must_use]
 pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
     let mut found: Vec<Vec<Remark>> = records
         .iter()

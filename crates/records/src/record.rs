@@ -19,7 +19,6 @@ pub(crate) const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
 /// let sum = rocking_records::sha256_hex(b"abc");
 /// assert!(sum.starts_with("ba7816bf8f01cfea414140de5dae2223"));
 /// ```
-#[must_use]
 pub fn sha256_hex(bytes: &[u8]) -> String {
     let sum = Sha256::digest(bytes);
     sum.iter().map(|byte| format!("{byte:02x}")).collect()

@@ -73,7 +73,6 @@ pub enum Uneven {
 
 impl Uneven {
     /// Index from 0 of the time at fault, if one is.
-    #[must_use]
     pub fn index(&self) -> Option<usize> {
         match self {
             Self::NotFinite { index } | Self::Step { index, .. } => {
@@ -118,7 +117,6 @@ impl Digits {
     const MOST: i32 = 18;
 
     /// The digits of the shortest texts that are read as these times.
-    #[must_use]
     pub fn of(times: &[f64]) -> Self {
         let mut digits = Self::default();
         for time in times {
@@ -148,7 +146,6 @@ impl Digits {
     /// Half a unit in s of the last digit with which `time_s` is written: the
     /// last decimal of the file, or the last significant digit if that is
     /// coarser. A zero that a program leaves out at the end is a digit, too.
-    #[must_use]
     pub fn resolution_s(self, time_s: f64) -> f64 {
         let mut per_second = power_of_ten(self.decimals);
         let most = power_of_ten(self.significant.max(1));

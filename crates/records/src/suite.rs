@@ -73,7 +73,6 @@ pub struct SuiteMember<M = Accelerogram> {
 
 impl<M> SuiteMember<M> {
     /// The cells of the index's other columns, by name.
-    #[must_use]
     pub fn attributes_by_name(&self) -> BTreeMap<String, String> {
         let cells = self.attributes.iter();
         cells.map(|(name, cell)| (name.to_string(), cell.clone())).collect()
@@ -100,7 +99,6 @@ impl SuiteMember {
     }
 
     /// The member without its samples.
-    #[must_use]
     pub fn into_profile(self) -> SuiteMember<Profile> {
         SuiteMember {
             accelerogram: Profile::of(&self.accelerogram),
@@ -210,26 +208,22 @@ impl Suite {
 
 impl<M: MemberMotion> Suite<M> {
     /// Name of the folder or index, without its ending.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// All records.
-    #[must_use]
     pub fn members(&self) -> &[SuiteMember<M>] {
         &self.members
     }
 
     /// The rule that chose the study components.
-    #[must_use]
     pub fn study_rule(&self) -> StudyRule {
         self.study_rule
     }
 
     /// Other contents of the folder or archive; empty for an index that is
     /// read by its own path.
-    #[must_use]
     pub fn set_aside(&self) -> &SetAside {
         &self.set_aside
     }
@@ -246,7 +240,6 @@ impl<M: MemberMotion> Suite<M> {
     }
 
     /// The pairs with both components, the study's component first.
-    #[must_use]
     pub fn both(&self) -> Vec<(&SuiteMember<M>, &SuiteMember<M>)> {
         let others: BTreeMap<&str, &SuiteMember<M>> = self
             .other_components()

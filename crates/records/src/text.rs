@@ -90,7 +90,6 @@ impl Fault {
     }
 
     /// The fault of a file as a whole.
-    #[must_use]
     pub fn whole(self, file: &str) -> RecordError {
         let file = file.to_owned();
         RecordError { file, line: None, column: None, fault: self }

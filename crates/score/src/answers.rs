@@ -16,7 +16,6 @@ const COLUMNS: [&str; 3] = ["scene", "quantity", "value"];
 
 impl Answers {
     /// No answers.
-    #[must_use]
     pub fn none() -> Self {
         Self(vec![None; reference().items.len()])
     }
@@ -90,13 +89,11 @@ impl Answers {
     /// The answer at a place of [`Reference::items`].
     ///
     /// [`Reference::items`]: crate::Reference::items
-    #[must_use]
     pub fn get(&self, place: usize) -> Option<&Value> {
         self.0[place].as_ref()
     }
 
     /// The answers as CSV, 17 digits.
-    #[must_use]
     pub fn csv(&self) -> String {
         let mut table = Table::new(&COLUMNS);
         for (item, value) in reference().items.iter().zip(&self.0) {

@@ -228,7 +228,6 @@ fn given(answers: &Answers) -> Vec<Residual> {
 
 /// Finds the mistake that explains the answers, if any; mistakes in `withheld`
 /// are not considered.
-#[must_use]
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());

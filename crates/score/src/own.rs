@@ -81,20 +81,17 @@ impl<N: Real> OwnResponse<N> {
     }
 
     /// The outcome, as the core names it.
-    #[must_use]
     pub fn fate(&self) -> &'static str {
         self.response.outcome.name()
     }
 
     /// Number of impacts until a time, s.
-    #[must_use]
     pub fn impacts(&self, until_s: f64) -> usize {
         let times = self.response.impacts.iter().map(|i| i.time_s.to_f64());
         times.filter(|t| *t <= until_s).count()
     }
 
     /// A quantity that is a number; `None` if the run has none.
-    #[must_use]
     pub fn number(&self, scene: &Problem, quantity: &str) -> Option<N> {
         let found = &self.response;
         let falls = found.outcome.is_overturned();

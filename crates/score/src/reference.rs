@@ -125,7 +125,6 @@ impl Value {
     }
 
     /// The number, if it is one.
-    #[must_use]
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Number(x) => Some(*x),
@@ -179,7 +178,6 @@ struct SceneFile {
 ///
 /// # Panics
 /// Never: the files are part of the program, and a test reads them.
-#[must_use]
 pub fn reference() -> &'static Reference {
     static SET: LazyLock<Reference> = LazyLock::new(|| {
         Reference::read().unwrap_or_else(|e| panic!("fixtures/benchmark: {e}"))
@@ -218,7 +216,6 @@ impl Reference {
     }
 
     /// Index of a quantity of a scene.
-    #[must_use]
     pub fn place(&self, scene: &str, quantity: &str) -> Option<usize> {
         let is_it = |item: &Item| {
             item.quantity == quantity && self.scene(item).name == scene
@@ -227,7 +224,6 @@ impl Reference {
     }
 
     /// The scene of an item.
-    #[must_use]
     pub fn scene(&self, item: &Item) -> &Problem {
         &self.scenes[item.scene]
     }

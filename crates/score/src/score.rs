@@ -31,7 +31,6 @@ impl Score {
     /// assert!(score.median_digits() > Some(13.0));
     /// # Ok::<(), String>(())
     /// ```
-    #[must_use]
     pub fn median_digits(&self) -> Option<f64> {
         middle(&sorted_digits(self.quantities.iter()))
     }
@@ -115,7 +114,6 @@ const CODES: &str = rocking_fixtures::text("benchmark/codes.csv");
 ///
 /// # Panics
 /// Never: the file is part of the program, and a test reads it.
-#[must_use]
 pub fn codes() -> Vec<Code> {
     let mut csv = csv::Reader::from_reader(CODES.as_bytes());
     let rows: Result<_, _> = csv.deserialize().collect();
@@ -145,7 +143,6 @@ fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
 }
 
 /// Scores answers, and diagnoses the code.
-#[must_use]
 pub fn score(answers: &Answers) -> Score {
     let set = reference();
     let mut levels = Vec::new();

@@ -62,7 +62,6 @@ pub enum AcceptanceError {
 ///
 /// # Panics
 /// If the levels have different sizes.
-#[must_use]
 pub fn distances(levels: &[Vec<f64>]) -> Vec<f64> {
     let finite = |k: &usize| levels[*k].iter().all(|x| x.is_finite());
     let usable: Vec<usize> = (0..levels.len()).filter(finite).collect();
@@ -149,7 +148,6 @@ impl NullBand {
     }
 
     /// The central part of the shares, of probability `level`.
-    #[must_use]
     pub fn central(&self, level: f64) -> Option<Interval> {
         let sample = Sample::try_new(&self.shares).ok()?;
         let rule = QuantileType::try_new(7).ok()?;

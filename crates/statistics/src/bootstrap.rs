@@ -27,7 +27,6 @@ pub struct BootstrapEstimate {
 
 impl BootstrapEstimate {
     /// A value without an interval, and the number of its resamples.
-    #[must_use]
     pub fn without_interval(
         value: f64,
         level: f64,
@@ -64,13 +63,11 @@ pub struct Bootstrap {
 
 impl Bootstrap {
     /// `replicates` draws out of n records.
-    #[must_use]
     pub fn new(name: &str, seed: u64, n: usize, replicates: usize) -> Self {
         Self::of_clusters(name, seed, &Clusters::singletons(n), replicates)
     }
 
     /// `replicates` draws out of the records of clusters.
-    #[must_use]
     pub fn of_clusters(
         name: &str,
         seed: u64,
@@ -96,7 +93,6 @@ impl Bootstrap {
 
     /// The places of the records of one draw. Draws of clusters of unequal
     /// sizes hold unequal numbers of records.
-    #[must_use]
     pub fn draw(&self, index: u64) -> Vec<usize> {
         let mut stream = self.streams.stream(index);
         let count = self.clusters.count();

@@ -125,7 +125,6 @@ impl Boxplot {
 /// assert!((interval.coverage - 0.960).abs() < 5e-4);
 /// # Ok::<(), rocking_statistics::SampleError>(())
 /// ```
-#[must_use]
 pub fn median_interval(
     sample: &ExtendedSample,
     level: f64,

@@ -68,13 +68,11 @@ impl CensoredSample {
     }
 
     /// The same values without their limits.
-    #[must_use]
     pub fn extended(&self) -> ExtendedSample {
         ExtendedSample::from_valid(&self.values)
     }
 
     /// The values at these places, in this order.
-    #[must_use]
     pub fn resample(&self, places: &[usize]) -> Self {
         let pick = |&i: &usize| (self.values[i], self.limits[i]);
         let (values, limits) = places.iter().map(pick).unzip();
@@ -82,7 +80,6 @@ impl CensoredSample {
     }
 
     /// The smallest value, and the sample of the values above it.
-    #[must_use]
     pub fn above_smallest(&self) -> (f64, Self) {
         let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         let above = |&i: &usize| self.values[i] > least;
@@ -98,20 +95,17 @@ impl CensoredSample {
     }
 
     /// Number of censored values.
-    #[must_use]
     pub fn censored(&self) -> usize {
         self.values.iter().filter(|x| x.is_infinite()).count()
     }
 
     /// Number of censored values whose limit is known.
-    #[must_use]
     pub fn limited(&self) -> usize {
         self.limits.iter().flatten().count()
     }
 
     /// A quantile of the values; none if it is unknown because a value is
     /// censored below it.
-    #[must_use]
     pub fn quantile(
         &self,
         quantile_type: QuantileType,
@@ -135,7 +129,6 @@ impl CensoredSample {
     /// assert_eq!(sample.points(), [(1.0, 0.125), (1.2, 0.375)]);
     /// # Ok::<(), rocking_statistics::SampleError>(())
     /// ```
-    #[must_use]
     pub fn points(&self) -> Vec<(f64, f64)> {
         let n = self.len();
         let known = |(k, x): (usize, &f64)| {

@@ -45,14 +45,12 @@ pub struct Clusters {
 impl Clusters {
     /// Earthquakes from one label per record: records with the same label form
     /// a cluster.
-    #[must_use]
     pub fn from_labels(labels: impl IntoIterator<Item: AsRef<str>>) -> Self {
         Self::of_unit(SamplingUnit::Earthquake, labels)
     }
 
     /// Earthquakes from one label per record, or the `n` records themselves if
     /// there are no labels.
-    #[must_use]
     pub fn of_events<S: AsRef<str>>(events: &[S], n: usize) -> Self {
         match events {
             [] => Self::singletons(n),
@@ -70,7 +68,6 @@ impl Clusters {
     ///     "intervals are rough: 3 motions, fewer than 8"
     /// );
     /// ```
-    #[must_use]
     pub fn of_unit(
         unit: SamplingUnit,
         labels: impl IntoIterator<Item: AsRef<str>>,
@@ -88,7 +85,6 @@ impl Clusters {
     }
 
     /// Clusters of `n` records without a label: each record is a cluster.
-    #[must_use]
     pub fn singletons(n: usize) -> Self {
         let members = (0..n).map(|record| vec![record]).collect();
         Self { unit: SamplingUnit::Record, of: (0..n).collect(), members }
@@ -110,25 +106,21 @@ impl Clusters {
     }
 
     /// The cluster of a record.
-    #[must_use]
     pub fn cluster_of(&self, record: usize) -> usize {
         self.of[record]
     }
 
     /// The records of a cluster, ascending.
-    #[must_use]
     pub fn members(&self, cluster: usize) -> &[usize] {
         &self.members[cluster]
     }
 
     /// Whether each record is a separate cluster.
-    #[must_use]
     pub fn is_singletons(&self) -> bool {
         self.count() == self.records()
     }
 
     /// Only these records, in this order.
-    #[must_use]
     pub fn part(&self, records: &[usize]) -> Self {
         let labels = records.iter().map(|record| self.of[*record].to_string());
         match self.unit {
@@ -138,14 +130,12 @@ impl Clusters {
     }
 
     /// The multiplicities without the records of one cluster.
-    #[must_use]
     pub fn without(&self, cluster: usize) -> Vec<u32> {
         self.of.iter().map(|of| u32::from(*of != cluster)).collect()
     }
 
     /// The number G_e = (sum n_g)^2/sum n_g^2 of clusters of one size that
     /// weigh as much as those of sizes n_g (Kish, Survey Sampling, 1965).
-    #[must_use]
     pub fn effective(&self) -> f64 {
         let n = self.records() as f64;
         let sizes = self.members.iter().map(|own| own.len() as f64);
@@ -157,7 +147,6 @@ impl Clusters {
     /// with independent records as the working model): with n records and
     /// c_g = 1/(1 - n_g/n), nu = n^2/(sum_g n_g^2 + sum_(g != h) c_g c_h
     /// (n_g n_h/n)^2). Of clusters of one size it is G - 1.
-    #[must_use]
     pub fn degrees_of_freedom(&self) -> f64 {
         let n = self.records() as f64;
         let (mut own, mut sum, mut squares) = (0.0, 0.0, 0.0);
@@ -184,7 +173,6 @@ impl Clusters {
     /// let share = clusters.intraclass(&[0.0, 2.0f64.sqrt(), 4.0, 5.5]);
     /// assert!(share.is_some_and(|share| share > 0.8 && share < 1.0));
     /// ```
-    #[must_use]
     pub fn intraclass(&self, values: &[f64]) -> Option<f64> {
         let centre = mean(values);
         let (mut between, mut within) = (0.0, 0.0);
@@ -207,7 +195,6 @@ impl Clusters {
 
     /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
     /// `None` for a single cluster.
-    #[must_use]
     pub fn student(&self, level: f64) -> Option<f64> {
         student(self.degrees_of_freedom(), level)
     }

@@ -48,7 +48,6 @@ impl Range {
 
     /// A number of the range on the scale on which its estimators scatter
     /// alike: the logarithm for positive quantities, else the number itself.
-    #[must_use]
     pub fn scale(self, x: f64) -> f64 {
         match self {
             Self::NotNegative => libm::log(x),
@@ -57,7 +56,6 @@ impl Range {
     }
 
     /// The inverse of [`Self::scale`]; beyond the scale, the end of the range.
-    #[must_use]
     pub fn unscale(self, y: f64) -> f64 {
         match self {
             Self::NotNegative => libm::exp(y),
@@ -66,7 +64,6 @@ impl Range {
     }
 
     /// The number in the range that is nearest to `x`; NaN for NaN.
-    #[must_use]
     pub fn nearest(self, x: f64) -> f64 {
         let Interval { low, high } = self.interval();
         x.clamp(low, high)
@@ -121,13 +118,11 @@ impl Interval {
     }
 
     /// Both ends.
-    #[must_use]
     pub fn ends(self) -> (f64, f64) {
         (self.low, self.high)
     }
 
     /// Whether the interval contains a number.
-    #[must_use]
     pub fn holds(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
@@ -235,19 +230,16 @@ impl Estimate {
 
     /// Both ends, for a table or a drawing: infinite if open, NaN if there is
     /// no interval.
-    #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         self.interval.map_or((f64::NAN, f64::NAN), Interval::ends)
     }
 
     /// The low end; none if it is open, or there is no interval.
-    #[must_use]
     pub fn low(&self) -> Option<f64> {
         self.interval.map(Interval::low).filter(|end| end.is_finite())
     }
 
     /// The high end; none if it is open, or there is no interval.
-    #[must_use]
     pub fn high(&self) -> Option<f64> {
         self.interval.map(Interval::high).filter(|end| end.is_finite())
     }
@@ -260,7 +252,6 @@ impl Estimate {
 
     /// The value with its unit, and its interval in brackets, numbers as
     /// `number` writes them: `12 % (8 to 17)`.
-    #[must_use]
     pub fn text(&self, unit: &str, number: impl Fn(f64) -> String) -> String {
         let value = number(self.value);
         let ends = self.interval.map_or(String::new(), |interval| {

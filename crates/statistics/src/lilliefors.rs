@@ -133,7 +133,6 @@ impl Statistic {
 
     /// The largest D that n values can give,
     /// max_k [k/n - Phi(-sqrt((n - k)(n - 1)/(k n)))].
-    #[must_use]
     pub fn largest(n: usize) -> f64 {
         let count = n as f64;
         (1..n).fold(0.0, |largest, k| {
@@ -205,7 +204,6 @@ named! {
 impl Verdict {
     /// The verdict at a level, of a p-value with the interval of its Monte
     /// Carlo error.
-    #[must_use]
     pub fn at_level(p_value: &Estimate, level: f64) -> Self {
         if p_value.high().is_some_and(|high| high < level) {
             Self::Rejected

@@ -116,7 +116,6 @@ impl Lognormal {
     }
 
     /// The median r + exp(mu).
-    #[must_use]
     pub fn median(&self) -> f64 {
         self.shift + exp(self.log_mean)
     }
@@ -134,7 +133,6 @@ impl Lognormal {
     ///
     /// Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions,
     /// volume 1, Eq. 14.8a.
-    #[must_use]
     pub fn mean(&self) -> f64 {
         self.shift + self.mean_above_shift()
     }
@@ -160,7 +158,6 @@ impl Lognormal {
     ///
     /// Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions,
     /// volume 1, Eq. 14.8b.
-    #[must_use]
     pub fn standard_deviation(&self) -> f64 {
         let square = self.dispersion * self.dispersion;
         exp(0.5f64.mul_add(square, self.log_mean)) * expm1(square).sqrt()
@@ -190,7 +187,6 @@ impl Lognormal {
 
     /// The standardised logarithm (ln(x - r) - mu)/beta; minus infinity up
     /// to the shift.
-    #[must_use]
     pub fn score(&self, x: f64) -> f64 {
         if x <= self.shift {
             return f64::NEG_INFINITY;
@@ -199,31 +195,26 @@ impl Lognormal {
     }
 
     /// The distribution function, a fragility's value at intensity x.
-    #[must_use]
     pub fn cdf(&self, x: f64) -> f64 {
         normal::cdf(self.score(x))
     }
 
     /// The survival function 1 - F(x), without cancellation.
-    #[must_use]
     pub fn survival(&self, x: f64) -> f64 {
         normal::survival(self.score(x))
     }
 
     /// The quantile at probability p in [0, 1]; NaN outside.
-    #[must_use]
     pub fn quantile(&self, p: f64) -> f64 {
         self.at_score(normal::quantile(p))
     }
 
     /// The x of a normal score, r + exp(mu + beta z).
-    #[must_use]
     pub fn at_score(&self, z: f64) -> f64 {
         self.shift + exp(f64::mul_add(self.dispersion, z, self.log_mean))
     }
 
     /// The logarithm of the density in x, so of 1/((x - r) beta) phi(score).
-    #[must_use]
     pub fn ln_pdf(&self, x: f64) -> f64 {
         let z = self.score(x);
         if z == f64::NEG_INFINITY {
@@ -237,7 +228,6 @@ impl Lognormal {
 
     /// Log-likelihood of finite data in x (the Jacobian -ln(x - r)
     /// included), so that models on different scales can be compared.
-    #[must_use]
     pub fn log_likelihood(&self, values: &[f64]) -> f64 {
         values.iter().fold(0.0, |sum, &x| sum + self.ln_pdf(x))
     }
@@ -279,7 +269,6 @@ impl Lognormal {
     /// assert!((distance - 0.382_924_922_548).abs() < 1e-12);
     /// # Ok::<(), rocking_statistics::lognormal::LognormalError>(())
     /// ```
-    #[must_use]
     pub fn distance(&self, other: &Self) -> Option<f64> {
         if self.shift != other.shift {
             return None;
@@ -301,7 +290,6 @@ impl Lognormal {
 
     /// Kolmogorov distance sup |F - F_n| to the empirical distribution of a
     /// sample (steps of 1/n); censored values count in n.
-    #[must_use]
     pub fn kolmogorov_distance(&self, sample: &ExtendedSample) -> f64 {
         let n = sample.len() as f64;
         let finite = sample.finite();
@@ -316,7 +304,6 @@ impl Lognormal {
 
     /// Area between F and the empirical distribution, in units of x (the
     /// Wasserstein-1 distance): none for a sample with censored values.
-    #[must_use]
     pub fn area_distance(&self, sample: &ExtendedSample) -> Option<f64> {
         if sample.censored() > 0 {
             return None;

@@ -12,7 +12,6 @@ pub(crate) const LN_SQRT_TWO_PI: f64 = 0.918_938_533_204_672_8;
 /// ```
 /// assert_eq!(rocking_statistics::normal::pdf(0.0), 0.3989422804014327);
 /// ```
-#[must_use]
 pub fn pdf(z: f64) -> f64 {
     PEAK * exp(-0.5 * z * z)
 }
@@ -26,13 +25,11 @@ pub fn pdf(z: f64) -> f64 {
 /// // Phi(-10), Abramowitz and Stegun, table 26.2
 /// assert!((cdf(-10.0) / 7.61985302416e-24 - 1.0).abs() < 1e-11);
 /// ```
-#[must_use]
 pub fn cdf(z: f64) -> f64 {
     0.5 * erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// Survival function 1 - Phi(z), without cancellation.
-#[must_use]
 pub fn survival(z: f64) -> f64 {
     cdf(-z)
 }
@@ -41,7 +38,6 @@ pub fn survival(z: f64) -> f64 {
 ///
 /// Below -20, where Phi underflows in the end, the asymptotic series of
 /// Mills' ratio is used (its first neglected term is below 1e-15).
-#[must_use]
 pub fn ln_cdf(z: f64) -> f64 {
     if z > 5.0 {
         log1p(-cdf(-z))
@@ -68,7 +64,6 @@ pub fn ln_cdf(z: f64) -> f64 {
 /// assert!((quantile(0.975) - 1.959963984540054).abs() < 1e-15);
 /// assert_eq!(quantile(0.5), 0.0);
 /// ```
-#[must_use]
 pub fn quantile(p: f64) -> f64 {
     if !(0.0..=1.0).contains(&p) {
         return f64::NAN;

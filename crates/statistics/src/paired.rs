@@ -113,13 +113,11 @@ impl Pairs {
     }
 
     /// Share of pairs with a ratio.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.ratios.len() as f64 / self.n as f64
     }
 
     /// Exact McNemar test on the discordant infinite pairs.
-    #[must_use]
     pub fn mcnemar(&self) -> SignTest {
         SignTest::of_counts(self.only_a_infinite, self.only_b_infinite)
     }
@@ -148,7 +146,6 @@ impl SignTest {
     /// assert_eq!((test.above, test.below), (5, 1));
     /// assert!((test.p_value - 14.0 / 64.0).abs() < 1e-14);
     /// ```
-    #[must_use]
     pub fn about(values: &[f64], centre: f64) -> Self {
         let above = values.iter().filter(|&&x| x > centre).count();
         let below = values.iter().filter(|&&x| x < centre).count();

@@ -114,7 +114,6 @@ impl Proportion {
     }
 
     /// k/n, from 0 to 1.
-    #[must_use]
     pub fn share(self) -> f64 {
         self.successes as f64 / self.trials as f64
     }

@@ -19,7 +19,6 @@ use rocking::names::as_text;
 /// use rocking_statistics::resampling::multiplicities;
 /// assert_eq!(multiplicities(&[2, 0, 2], 3), [1, 0, 2]);
 /// ```
-#[must_use]
 pub fn multiplicities(places: &[usize], n: usize) -> Vec<u32> {
     let mut counts = vec![0; n];
     for place in places {
@@ -42,7 +41,6 @@ impl Bootstrap {
     /// let counts = drawn.multiplicities(1);
     /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
     /// ```
-    #[must_use]
     pub fn multiplicities(&self, index: u64) -> Vec<u32> {
         let places = self.draw(index);
         multiplicities(&places, self.clusters.records())
@@ -111,7 +109,6 @@ impl Clusters {
     /// assert_eq!(all, [[0, 0, 1, 0], [0, 1, 0, 0], [1, 0, 0, 1]]);
     /// assert_eq!(Clusters::singletons(86).without_two().len(), 86 * 5);
     /// ```
-    #[must_use]
     pub fn without_two(&self) -> Vec<Vec<u32>> {
         let count = self.count();
         let all = MOST_PAIRED * (MOST_PAIRED - 1) / 2;
@@ -195,7 +192,6 @@ impl Clusters {
     /// );
     /// assert!(Clusters::singletons(8).remark(200).is_none());
     /// ```
-    #[must_use]
     pub fn remark(&self, draws: usize) -> Option<IntervalRemark> {
         let clusters = (self.count() < FEWEST_CLUSTERS)
             .then(|| (self.count(), self.unit()));
@@ -242,7 +238,6 @@ impl Clusters {
     /// assert!((high / mean(&values)).ln() - half < 1e-3);
     /// assert!((low * high - mean(&values).powi(2)).abs() < 1e-12);
     /// ```
-    #[must_use]
     pub fn estimate(
         &self,
         point: f64,
@@ -288,7 +283,6 @@ pub struct RecordRanks(Vec<(f64, usize)>);
 
 impl RecordRanks {
     /// The values by record; NaN is a missing value.
-    #[must_use]
     pub fn new(values: &[f64]) -> Self {
         let values = values.iter().copied().zip(0..);
         let mut sorted: Vec<(f64, usize)> =
@@ -308,7 +302,6 @@ impl RecordRanks {
     }
 
     /// The values of a replicate, ascending, each as often as its record.
-    #[must_use]
     pub fn drawn(&self, counts: &[u32]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.0.len());
         for (x, record) in &self.0 {
@@ -319,7 +312,6 @@ impl RecordRanks {
 
     /// Quantile of type 5 of a replicate: infinite if an infinite value has
     /// weight, NaN if there is no value.
-    #[must_use]
     pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
         let drawn = self.drawn(counts);
         if drawn.is_empty() {
@@ -329,7 +321,6 @@ impl RecordRanks {
     }
 
     /// Median of a replicate.
-    #[must_use]
     pub fn median(&self, counts: &[u32]) -> f64 {
         self.quantile(counts, 0.5)
     }

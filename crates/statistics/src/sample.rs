@@ -79,26 +79,22 @@ impl Sample {
     }
 
     /// Number of distinct values.
-    #[must_use]
     pub fn distinct(&self) -> usize {
         self.sorted.chunk_by(|a, b| a == b).count()
     }
 
     /// Size of the largest group of equal values.
-    #[must_use]
     pub fn largest_tie(&self) -> usize {
         let ties = self.sorted.chunk_by(|a, b| a == b);
         ties.map(<[f64]>::len).fold(0, usize::max)
     }
 
     /// Arithmetic mean, from a compensated sum.
-    #[must_use]
     pub fn mean(&self) -> f64 {
         mean(&self.sorted)
     }
 
     /// Sum of squared deviations from the mean.
-    #[must_use]
     pub fn sum_of_squares(&self) -> f64 {
         sum_of_squares(&self.sorted)
     }
@@ -153,7 +149,6 @@ impl ExtendedSample {
     }
 
     /// The finite values in ascending order.
-    #[must_use]
     pub fn finite(&self) -> &[f64] {
         &self.sorted[..self.finite]
     }
@@ -165,14 +160,12 @@ impl ExtendedSample {
     }
 
     /// Number of infinite values.
-    #[must_use]
     pub fn censored(&self) -> usize {
         self.sorted.len() - self.finite
     }
 
     /// Quantile of type 5 at probability p in [0, 1], infinite if censored
     /// values have a weight in it; NaN outside.
-    #[must_use]
     pub fn quantile(&self, p: f64) -> f64 {
         let value = QuantileType::default().extended_quantile(self, p);
         value.unwrap_or(f64::NAN)

@@ -62,13 +62,11 @@ pub struct Streams {
 
 impl Streams {
     /// The family of this name and seed.
-    #[must_use]
     pub fn new(name: &str, seed: u64) -> Self {
         Self { key: key(name, seed) }
     }
 
     /// The stream of this index, at its beginning.
-    #[must_use]
     #[inline]
     pub fn stream(&self, index: u64) -> Stream {
         let mut stream = ChaCha8Rng::from_seed(self.key);
@@ -84,7 +82,6 @@ impl Streams {
 /// use rocking_statistics::streams::{Streams, below};
 /// assert!(below(&mut Streams::new("example", 0).stream(0), 7) < 7);
 /// ```
-#[must_use]
 pub fn below(stream: &mut Stream, n: usize) -> usize {
     ((u128::from(stream.next_u64()) * n as u128) >> 64) as usize
 }

@@ -31,7 +31,6 @@ pub struct TwoSampleTest {
 /// assert!((found.p_value - 0.1).abs() < 1e-15);
 /// # Ok::<(), rocking_statistics::SampleError>(())
 /// ```
-#[must_use]
 pub fn kolmogorov_smirnov(
     a: &ExtendedSample,
     b: &ExtendedSample,

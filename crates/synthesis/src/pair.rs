@@ -53,13 +53,11 @@ pub struct Scenario {
 
 impl Scenario {
     /// Name of the earthquake, as an index has it.
-    #[must_use]
     pub fn event(&self) -> String {
         format!("earthquake {:02}", self.earthquake)
     }
 
     /// Names and texts of its columns in an index.
-    #[must_use]
     pub fn columns(&self) -> [(&'static str, String); 5] {
         let mechanism = if self.reverse { "reverse" } else { "strike slip" };
         [

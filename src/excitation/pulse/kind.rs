@@ -54,25 +54,21 @@ impl PulseParameter {
     }
 
     /// The quantity, as messages and help texts name it.
-    #[must_use]
     pub const fn quantity(self) -> &'static str {
         self.row()[0]
     }
 
     /// SI unit; empty if there is none.
-    #[must_use]
     pub const fn unit(self) -> &'static str {
         self.row()[1]
     }
 
     /// Name if accelerations are multiples of gravity.
-    #[must_use]
     pub const fn name_over_gravity(self) -> &'static str {
         self.row()[2]
     }
 
     /// Default value, if there is one.
-    #[must_use]
     pub const fn default_value(self) -> Option<f64> {
         match self {
             Self::Cycles => Some(4.0),
@@ -181,7 +177,6 @@ macro_rules! pulses {
             }
 
             /// Its parameters, in the order of [`kind`](Self::kind).
-            #[must_use]
             pub fn parameters(self) -> &'static [PulseParameter] {
                 use PulseParameter as P;
                 match self {

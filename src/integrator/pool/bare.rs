@@ -43,7 +43,6 @@ impl BareSteps<'_> {
     /// Rotation (rad) and velocity (rad, per 1/p) at the end of the last of
     /// `flights` flights through the samples, each of [`Self::LANES`] blocks;
     /// `None` if lanes are not faster than single numbers.
-    #[must_use]
     pub fn fly(&self, isa: Isa, flights: u32) -> Option<[f64; 2]> {
         isa.run_wide(Bare { of: *self, flights })
     }

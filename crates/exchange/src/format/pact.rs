@@ -45,7 +45,6 @@ impl Pact {
     /// assert_eq!(Pact::of(Intensity::Pgv, &shifted), None);
     /// # Ok::<(), rocking_statistics::lognormal::LognormalError>(())
     /// ```
-    #[must_use]
     pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
         (fragility.shift() == 0.0).then(|| Self {
             demand: intensity.row().symbol,

@@ -219,7 +219,6 @@ impl BootstrapFits {
     /// these draws, symmetric in the normal score, or between quantiles of the
     /// draws if they have a model error; without intervals by the delta
     /// method.
-    #[must_use]
     pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
         let point = |&intensity: &f64| {
             let score = |fit: &TotalFragility| fit.score(intensity);

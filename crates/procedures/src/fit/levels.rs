@@ -21,7 +21,6 @@ named! {
 
 impl DispersionRule {
     /// The [`FitOptions::family`] of each of these samples.
-    #[must_use]
     pub fn family(self, samples: &[CensoredSample]) -> Vec<CensoredSample> {
         match self {
             Self::Own => Vec::new(),

@@ -77,7 +77,6 @@ impl HazardMeasure {
     /// assert!(!HazardMeasure::AverageSa.is_of(&IntensityMeasure::PGA));
     /// assert!(HazardMeasure::Own.is_of(&mean));
     /// ```
-    #[must_use]
     pub fn is_of(&self, im: &IntensityMeasure) -> bool {
         match self {
             Self::Own => true,
@@ -91,7 +90,6 @@ impl HazardMeasure {
     }
 
     /// The dimensionless measure, if it is an axis of IDA curves.
-    #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
             Self::Of(im) => im.dimensionless(),
@@ -100,7 +98,6 @@ impl HazardMeasure {
     }
 
     /// The name of the measure; `None` for the fragility's own.
-    #[must_use]
     pub fn name(&self) -> Option<String> {
         match self {
             Self::Own => None,
@@ -212,7 +209,6 @@ type Written = (usize, f64, f64);
 
 impl Hazard {
     /// Unit of the curve's intensities.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         match &self.im {
             HazardMeasure::Own => "that of the fragility",

@@ -46,7 +46,6 @@ type Fitted = Result<Lognormal, FitError>;
 impl Recipe {
     /// Every recipe of the comparison: USFL and SSFL by each method, the
     /// quantiles, and Eq. 7 with each method, centre and constant.
-    #[must_use]
     pub fn all(quantile_type: QuantileType) -> Vec<Self> {
         let methods = FitMethod::all(quantile_type);
         let mut all = methods.map(Self::Unshifted).to_vec();
@@ -62,7 +61,6 @@ impl Recipe {
     }
 
     /// The paper's option: 1, 2 or 3; 0 for the unshifted fragility.
-    #[must_use]
     pub fn option(&self) -> u8 {
         match self {
             Self::Unshifted(_) => 0,
@@ -74,7 +72,6 @@ impl Recipe {
 
     /// Number of statistics that must be reported of the unshifted sample,
     /// besides the shift; `None` if the whole sample must be known.
-    #[must_use]
     pub fn parameters(&self) -> Option<u8> {
         match self {
             Self::Shifted(_) => None,
@@ -85,7 +82,6 @@ impl Recipe {
 
     /// The fragilities of several recipes for one sample, each fit made
     /// once.
-    #[must_use]
     pub fn fragilities(
         recipes: &[Self],
         sample: &ExtendedSample,

@@ -161,7 +161,6 @@ impl HazardCurve {
 
     /// H(x) in 1/year, between the points H = H_i (x/x_i)^-k; `None`
     /// outside them.
-    #[must_use]
     pub fn frequency(&self, im: f64) -> Option<f64> {
         let to = self.points.partition_point(|(x, _)| *x < im).max(1);
         let pair = self.points.get(to - 1..=to)?;
@@ -196,7 +195,6 @@ impl HazardCurve {
     ///
     /// Cornell, Jalayer, Hamburger and Foutch, Journal of Structural
     /// Engineering 128, 2002, Eqs. 6 and 12.
-    #[must_use]
     pub fn annual_frequency(
         &self,
         fragility: impl Into<TotalFragility>,
@@ -235,7 +233,6 @@ impl HazardCurve {
     /// assert_eq!((found[1].from_im, found[1].to_im), (0.4, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn contributions(
         &self,
         fragility: impl Into<TotalFragility>,

@@ -91,25 +91,21 @@ impl TotalFragility {
     }
 
     /// The law of the records.
-    #[must_use]
     pub fn records(&self) -> &Lognormal {
         &self.records
     }
 
     /// The bias b of the model.
-    #[must_use]
     pub fn bias(&self) -> f64 {
         self.bias
     }
 
     /// The dispersion s of the model.
-    #[must_use]
     pub fn model_dispersion(&self) -> f64 {
         self.dispersion
     }
 
     /// The total itself, if it is lognormal.
-    #[must_use]
     pub fn closed(&self) -> Option<Lognormal> {
         self.closed
     }
@@ -163,7 +159,6 @@ impl TotalFragility {
     }
 
     /// The distribution function, a fragility's value at intensity x.
-    #[must_use]
     pub fn cdf(&self, x: f64) -> f64 {
         match self.closed {
             Some(law) => law.cdf(x),
@@ -173,34 +168,29 @@ impl TotalFragility {
     }
 
     /// The survival function 1 - F(x).
-    #[must_use]
     pub fn survival(&self, x: f64) -> f64 {
         self.closed.map_or_else(|| 1.0 - self.cdf(x), |law| law.survival(x))
     }
 
     /// The normal score of F(x).
-    #[must_use]
     pub fn score(&self, x: f64) -> f64 {
         let of = || normal::quantile(self.cdf(x));
         self.closed.map_or_else(of, |law| law.score(x))
     }
 
     /// The logarithm of the density in x.
-    #[must_use]
     pub fn ln_pdf(&self, x: f64) -> f64 {
         let of = || log(self.mean(x, 0.0, pdf) / (x * self.dispersion));
         self.closed.map_or_else(of, |law| law.ln_pdf(x))
     }
 
     /// The intensity of a normal score.
-    #[must_use]
     pub fn at_score(&self, z: f64) -> f64 {
         let of = || self.quantile(normal::cdf(z));
         self.closed.map_or_else(of, |law| law.at_score(z))
     }
 
     /// The quantile at probability p in [0, 1]; NaN outside.
-    #[must_use]
     pub fn quantile(&self, p: f64) -> f64 {
         if let Some(law) = self.closed {
             return law.quantile(p);
@@ -244,7 +234,6 @@ impl TotalFragility {
     }
 
     /// The median.
-    #[must_use]
     pub fn median(&self) -> f64 {
         let of = || self.quantile(0.5);
         self.closed.map_or_else(of, |law| law.median())

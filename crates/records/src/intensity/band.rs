@@ -31,7 +31,6 @@ pub struct RockingBand {
 impl RockingBand {
     /// The periods of a block with frequency parameter p in rad/s, from 1e-3
     /// to 1e3; `None` for any other number.
-    #[must_use]
     pub fn try_new(p_rad_s: f64) -> Option<Self> {
         let (low, high) = ENDS;
         let periods_s = std::array::from_fn(|k| {
@@ -44,13 +43,11 @@ impl RockingBand {
     }
 
     /// Frequency parameter of the block in rad/s.
-    #[must_use]
     pub fn p_rad_s(&self) -> f64 {
         self.p_rad_s
     }
 
     /// The periods in s, rising.
-    #[must_use]
     pub fn periods_s(&self) -> &[f64] {
         &self.periods_s
     }

@@ -38,7 +38,6 @@ pub struct IntensityRow {
 
 impl Intensity {
     /// The row of the measure.
-    #[must_use]
     pub const fn row(self) -> IntensityRow {
         match self {
             Self::Pga => IntensityRow {
@@ -64,7 +63,6 @@ impl Intensity {
     /// use rocking_records::intensity::Intensity;
     /// assert_eq!(Intensity::Pgv.of(0.4, 0.6), 0.6);
     /// ```
-    #[must_use]
     pub fn of(self, pga: f64, pgv: f64) -> f64 {
         (self.row().of)(pga, pgv)
     }
@@ -79,7 +77,6 @@ impl Intensity {
     /// // p PGV/(g tan alpha)
     /// assert!((3.0 * 0.2 * pga_g / 0.1 - 2.0).abs() < 1e-15);
     /// ```
-    #[must_use]
     pub fn pga_g(
         self,
         im: f64,
@@ -135,7 +132,6 @@ impl ScalarRow {
 
 impl ScalarMeasure {
     /// The row of the measure.
-    #[must_use]
     pub const fn row(self) -> ScalarRow {
         match self {
             Self::Pgd => ScalarRow::of("PGD", "m", |m| m.pgd_m),
@@ -308,7 +304,6 @@ impl AtUplift {
     /// assert!((found / measures.cav_m_s - 2.0).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn value(
         &self,
         measure: &IntensityMeasure,
@@ -342,7 +337,6 @@ impl AtUplift {
     /// assert_eq!(uplift.unscaled(&pga, &measures, &[], f64::NAN), 0.5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn unscaled(
         &self,
         measure: &IntensityMeasure,
@@ -395,7 +389,6 @@ impl IntensityMeasure {
     }
 
     /// The default measures of a ranking.
-    #[must_use]
     pub fn usual() -> Vec<Self> {
         let mut all: Vec<Self> = Self::words_alone().collect();
         all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(Self::Sa));
@@ -405,7 +398,6 @@ impl IntensityMeasure {
 
     /// The default measures for comparisons of shaking-table tests: PGA, PGV
     /// and the last of the [`usual`](Self::usual) measures.
-    #[must_use]
     pub fn usual_of_tests() -> Vec<Self> {
         vec![Self::PGA, Self::PGV, Self::RockingSa(None)]
     }
@@ -425,7 +417,6 @@ impl IntensityMeasure {
     /// assert_eq!(IntensityMeasure::of_words(&own.words()), Some(own));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn of_block(&self, p_rad_s: f64) -> Self {
         match self {
             Self::RockingSa(None) => {
@@ -436,7 +427,6 @@ impl IntensityMeasure {
     }
 
     /// Unit of its [`value`](Self::value); empty for a column.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Axis(intensity) => intensity.row().unit,
@@ -447,7 +437,6 @@ impl IntensityMeasure {
     }
 
     /// The dimensionless measure, if it is the axis of an IDA curve.
-    #[must_use]
     pub fn dimensionless(&self) -> Option<Intensity> {
         match self {
             Self::Axis(intensity) => Some(*intensity),
@@ -457,7 +446,6 @@ impl IntensityMeasure {
 
     /// The measure in words with its unit; an axis of IDA curves is
     /// dimensionless.
-    #[must_use]
     pub fn words(&self) -> String {
         let symbol = match self {
             Self::Axis(intensity) => return intensity.row().words.to_owned(),
@@ -487,7 +475,6 @@ impl IntensityMeasure {
     /// assert_eq!(found, Some(IntensityMeasure::AverageSa(vec![0.5, 1.0])));
     /// assert_eq!(IntensityMeasure::of_words("SA(1 s), g"), None);
     /// ```
-    #[must_use]
     pub fn of_words(words: &str) -> Option<Self> {
         let mut fixed = Self::words_alone();
         if let Some(found) = fixed.find(|m| m.words() == words) {
@@ -507,13 +494,11 @@ impl IntensityMeasure {
 
     /// Whether it grows with the square of the acceleration; all other
     /// measures are proportional to it.
-    #[must_use]
     pub fn is_squared(&self) -> bool {
         matches!(self, Self::Scalar(scalar) if scalar.row().is_squared)
     }
 
     /// Periods of its spectral accelerations, in s.
-    #[must_use]
     pub fn periods_s(&self) -> &[f64] {
         match self {
             Self::Sa(period_s) => std::slice::from_ref(period_s),
@@ -526,7 +511,6 @@ impl IntensityMeasure {
     /// Its value for a record, in its [`unit`](Self::unit); `periods_s` are
     /// the periods of the measured spectral accelerations. `None` for a
     /// column, and for a period that was not measured.
-    #[must_use]
     pub fn value(&self, of: &Measures, periods_s: &[f64]) -> Option<f64> {
         let sa_g = |period_s: &f64| {
             let place = periods_s.iter().position(|t| t == period_s)?;

@@ -54,19 +54,16 @@ impl Settings {
     }
 
     /// Gravity in m/s2.
-    #[must_use]
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity_m_s2
     }
 
     /// Damping ratio of the response spectrum.
-    #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         self.damping_ratio
     }
 
     /// Periods of the response spectrum in s.
-    #[must_use]
     pub fn periods_s(&self) -> &[f64] {
         &self.periods_s
     }

@@ -74,14 +74,12 @@ pub struct Candidate {
 
 impl Candidate {
     /// Whether it is a pulse: a positive indicator, and early.
-    #[must_use]
     pub fn is_pulse(&self) -> bool {
         self.indicator > 0.0 && !self.late
     }
 }
 
 /// The first of the candidates that is a pulse.
-#[must_use]
 pub fn pulse(candidates: &[Candidate]) -> Option<&Candidate> {
     candidates.iter().find(|c| c.is_pulse())
 }

@@ -30,7 +30,6 @@ impl Profile {
     /// assert_eq!(profile.name(), "a");
     /// # Ok::<(), rocking::accelerogram::AccelerogramError>(())
     /// ```
-    #[must_use]
     pub fn of(record: &Accelerogram) -> Self {
         let samples = record.samples_g();
         // The first of the largest samples.
@@ -52,7 +51,6 @@ impl Profile {
     }
 
     /// Name of the record.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -146,19 +146,16 @@ pub struct SetAside(Vec<Aside>);
 
 impl SetAside {
     /// Whether nothing was set aside.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Everything, in the order of reading.
-    #[must_use]
     pub fn all(&self) -> &[Aside] {
         &self.0
     }
 
     /// The number for each reason, and its first file.
-    #[must_use]
     pub fn counts(&self) -> Vec<AsideCount<'_>> {
         let mut counts: Vec<AsideCount<'_>> = Vec::new();
         for Aside { file, reason, .. } in &self.0 {

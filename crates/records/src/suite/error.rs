@@ -110,7 +110,6 @@ fn instead(set_aside: &SetAside) -> String {
 
 impl SuiteError {
     /// The file that was refused: a record, else the folder or index.
-    #[must_use]
     pub fn file(&self) -> &str {
         match self {
             Self::Record(error) => &error.file,
@@ -125,7 +124,6 @@ impl SuiteError {
     }
 
     /// Short name of the reason, the same in every version.
-    #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
             Self::Record(error) => error.fault.code(),
@@ -140,7 +138,6 @@ impl SuiteError {
     }
 
     /// Line of that file, counted from 1.
-    #[must_use]
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Record(error) => error.line,

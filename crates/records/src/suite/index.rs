@@ -64,7 +64,6 @@ const PEER_EVENT: &str = "Earthquake Name";
 
 /// Whether the content is an index: its first line has a column `file`, or any
 /// line is the head of PEER's list of records.
-#[must_use]
 pub fn is_index(bytes: &[u8]) -> bool {
     let Ok(content) = text::decode("", bytes) else { return false };
     let mut lines = content.split(['\n', '\r']);

@@ -106,7 +106,6 @@ impl LillieforsTest {
     /// assert_eq!(test.verdict, Ok(Verdict::NotRejected));
     /// # Ok::<(), rocking_statistics::SampleError>(())
     /// ```
-    #[must_use]
     pub fn new(
         sample: &ExtendedSample,
         scale: Scale,
@@ -129,13 +128,11 @@ impl LillieforsTest {
 
     /// Whether D exceeds the critical value (strictly), with ties or without;
     /// `None` if there is no statistic.
-    #[must_use]
     pub fn exceeds(&self) -> Option<bool> {
         Some(self.statistic?.d > self.critical_value?)
     }
 
     /// D over the critical value; none if there is no statistic.
-    #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         Some(self.statistic?.d / self.critical_value?)
     }

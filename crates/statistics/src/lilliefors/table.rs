@@ -48,7 +48,6 @@ pub struct TabledPValue {
 
 impl LillieforsTable {
     /// The table that the project simulated.
-    #[must_use]
     pub fn embedded() -> &'static Self {
         &TABLE
     }
@@ -61,7 +60,6 @@ impl LillieforsTable {
     ];
 
     /// Sizes that are simulated, with their numbers of replicates.
-    #[must_use]
     pub fn sizes() -> Vec<(usize, u64)> {
         let selected = [150, 200, 300, 400, 600, 900, 1000];
         (4..=100)

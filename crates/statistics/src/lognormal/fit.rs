@@ -35,7 +35,6 @@ pub enum FitMethod {
 
 impl FitMethod {
     /// All of them, their quantiles of this type.
-    #[must_use]
     pub fn all(quantile_type: QuantileType) -> [Self; 5] {
         [
             Self::MaximumLikelihood,
@@ -47,7 +46,6 @@ impl FitMethod {
     }
 
     /// The name, without the type of quantiles.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::MaximumLikelihood => "mle",
@@ -59,7 +57,6 @@ impl FitMethod {
     }
 
     /// The same method, its quantiles of this type.
-    #[must_use]
     pub fn with_quantile_type(self, quantile_type: QuantileType) -> Self {
         let mut all = Self::all(quantile_type).into_iter();
         all.find(|own| own.name() == self.name()).unwrap_or(self)

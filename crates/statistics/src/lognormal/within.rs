@@ -20,7 +20,6 @@ use crate::search::{golden, narrow};
 /// assert!((found - 0.7238).abs() < 1e-4);
 /// assert_eq!(dispersion_within(&[group[..2].to_vec()]), None);
 /// ```
-#[must_use]
 pub fn dispersion_within(groups: &[Vec<(f64, bool)>]) -> Option<f64> {
     // A group of one outcome fits any dispersion.
     let is_mixed = |own: &&Vec<(f64, bool)>| {

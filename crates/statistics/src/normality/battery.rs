@@ -92,7 +92,6 @@ impl Battery {
     }
 
     /// The null distributions of A^2, W^2 and 1 - W.
-    #[must_use]
     pub fn nulls(&self) -> &[NullDistribution; 3] {
         &self.nulls
     }

@@ -50,7 +50,6 @@ fn density(x: f64) -> f64 {
 /// let z: Vec<f64> = (0..3).map(|_| standard_normal(&mut stream)).collect();
 /// assert!(z.iter().all(|z| z.abs() < 10.0));
 /// ```
-#[must_use]
 pub fn standard_normal(stream: &mut Stream) -> f64 {
     let first = stream.next_u64();
     ZIGGURAT.variate(first, || stream.next_u64())

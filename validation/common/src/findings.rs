@@ -441,7 +441,7 @@ mod tests {
             r#"{"value":1,"low":null,"high":1}"#,
             r#"{"value":1,"low":1,"high":null}"#,
         ] {
-            assert!(read(text).unwrap_err().contains("rising"), "{text}");
+            assert!(read(text).unwrap_err().contains("low end"), "{text}");
         }
         let text = r#"{"value":"one","low":null,"high":null}"#;
         assert!(read(text).unwrap_err().contains("\"inf\""));

@@ -178,7 +178,16 @@ impl ReaderQuestion {
             }
             listed.push(all);
         }
-        sentences.retain(|sentence| !sentence.contains('{'));
+        // Without its number a sentence ends before its colon.
+        for sentence in &mut sentences {
+            if sentence.contains('{') {
+                let before = sentence.split_once(": ");
+                let before = before.filter(|(words, _)| !words.contains('{'));
+                *sentence =
+                    before.map_or(String::new(), |(w, _)| w.to_owned() + ".");
+            }
+        }
+        sentences.retain(|sentence| !sentence.is_empty());
         (sentences.join(" "), listed.join("; "))
     }
 }

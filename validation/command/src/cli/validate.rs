@@ -37,7 +37,7 @@ use rocking_common::suites::remarks::Remarks;
 #[derive(clap::Args)]
 #[command(mut_arg("p", |arg| arg.help(
     "Frequency parameter p in rad/s; without --alpha the slenderness is \
-     fitted to the fates"
+     fitted to the outcomes"
 )))]
 #[command(after_help = "Examples:\n  \
     rocking validate tests.csv --alpha 0.15 --p 4.5 --out page\n  \
@@ -173,7 +173,7 @@ impl ValidateCommand {
         let some = [
             ("Program", Some(SOFTWARE.to_owned())),
             ("Table of tests", Some(table)),
-            ("Column of the fates", Some(self.fate.clone())),
+            ("Column of the outcomes", Some(self.fate.clone())),
             ("Processing", words(&self.input.processing()?)),
             ("Remarks", remarks.words()),
             ("Draws of the intervals", Some(draws.replicates.to_string())),

@@ -79,7 +79,7 @@ pub(super) fn answer(results: &StudyResults) -> anyhow::Result<StudyAnswer> {
                 let [a, b, c] = row.rejected.map(|share| percent(share, 0));
                 format!(
                     "{a} in A, {b} in B and {c} in C at p = {p} ({} by the \
-                     grid alone, {} distinct values of {})",
+                     steps of the grid, {} distinct values of {})",
                     percent(row.grid_alone, 0),
                     row.distinct[0],
                     suite.records.len(),
@@ -189,7 +189,7 @@ fn panel(title: String, rows: &[GridRow]) -> ChartPanel {
             line(&label, Mark::LineAndPoints, &|r| r.rejected[k])
         })
         .collect();
-    let words = "the grid alone, at overturning";
+    let words = "by the steps of the grid, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
     let x = ChartAxis::linear("*α* (rad)", (0.03, 0.27));
     let y = ChartAxis::linear("rejected levels (%)", (0.0, 100.0));

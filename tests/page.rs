@@ -143,7 +143,7 @@ fn the_first_screen_answers_and_the_main_part_is_short() {
 }
 
 /// A4 sheets of a copy to file.
-const SHEETS: usize = 30;
+const SHEETS: usize = 24;
 
 /// The paper has the report whole, and of its annexes the list of their
 /// files.

@@ -17,8 +17,13 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
 const WIDE_PX: u32 = 640;
 
-/// The head of a page, with all styles.
+/// The head of a page, with all styles. In print each sheet has the title.
 pub fn head(title: &str) -> Markup {
+    let plain = title.replace(['"', '\\', '<', '\n'], "");
+    let running = format!(
+        "@page{{@top-left{{content:\"{plain}\";font:8pt sans-serif;\
+         color:#4d4d4d}}}}"
+    );
     html! {
         head {
             meta charset="utf-8";
@@ -27,7 +32,10 @@ pub fn head(title: &str) -> Markup {
                 content="width=device-width, initial-scale=1";
             meta name="color-scheme" content="light dark";
             title { (title) }
-            style { (PreEscaped(STYLE)) (PreEscaped(colour::STYLE)) }
+            style {
+                (PreEscaped(STYLE)) (PreEscaped(colour::STYLE))
+                (PreEscaped(running))
+            }
         }
     }
 }

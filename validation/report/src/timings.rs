@@ -177,7 +177,7 @@ impl Timings {
     /// The error of the peak, in a few words.
     pub fn error(&self) -> String {
         format!(
-            "Peak of |theta|/alpha off by {} in the median, by {} at most, in \
+            "peak of |theta|/alpha off by {} in the median, by {} at most, in \
              {} analyses",
             digits(self.own.peak_error),
             digits(self.own.peak_error_worst),

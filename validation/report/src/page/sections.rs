@@ -112,7 +112,11 @@ fn method(page: &Page<'_>) -> Markup {
     let mut paragraphs = page.words.method.clone();
     paragraphs.extend(page.proof.map(|proof| proof.coverage().words()));
     html! {
-        (columns(&paragraphs))
+        (folded(
+            "procedure",
+            "Model, suites, grids, estimators, inference",
+            &columns(&paragraphs),
+        ))
         (folded("equations", "Equations", &PreEscaped(EQUATIONS.into())))
         (folded("glossary", "Glossary", &html! {
             div.columns { (list(&page.words.glossary)) }

@@ -16,16 +16,16 @@ const LOCK: &str = include_str!(env!("ROCKING_LOCK"));
 /// the program knows no clock and no names.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Signatures {
-    /// Date of issue, as it is to stand on the page.
+    /// Date of issue, as it should appear on the page.
     #[arg(long, value_name = "DATE")]
     pub issued: Option<String>,
-    /// Who prepared the report; otherwise the page has a line to sign.
+    /// Name of the preparer; if omitted, the page has a signature line.
     #[arg(long, value_name = "NAME")]
     pub prepared_by: Option<String>,
-    /// Who reviewed the report; otherwise the page has a line to sign.
+    /// Name of the reviewer; if omitted, the page has a signature line.
     #[arg(long, value_name = "NAME")]
     pub reviewed_by: Option<String>,
-    /// Who approved the report; otherwise the page has a line to sign.
+    /// Name of the approver; if omitted, the page has a signature line.
     #[arg(long, value_name = "NAME")]
     pub approved_by: Option<String>,
     /// The commit of the program, which an issued copy names.

@@ -28,17 +28,17 @@ use rocking_common::suites::StudySuite;
 /// The kind of a suite by default.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
 
-/// Which object overturns first, how often, and how sure that is: from a
-/// table of objects to one page.
+/// Which object overturns first, how often, and how certainly: from a table of
+/// objects to one page.
 ///
-/// Each object is a rigid block that stands free and rocks on flat ground; it
+/// Each object is a free-standing rigid block that rocks on flat ground; it
 /// does not slide, jump or twist. Records are scaled until they overturn it.
 /// Without --suite the records are the 86 synthetic motions of ordinary
 /// earthquakes that come with the program; `python -m rocking.recorded
 /// motions` writes recorded ones (FEMA P-695). Without --hazard objects are
-/// ranked by the PGA that overturns them with a probability of 5 %, not by how
-/// often a year. DIR gets the page index.html, assess.json with every number
-/// of it, and CSV files of the curves.
+/// ranked by the PGA that overturns them with a probability of 5 %, not by
+/// annual frequency. DIR receives the page index.html, assess.json with all
+/// its numbers, and CSV files of the curves.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("object").required(true).multiple(true)
     .args(["objects", "width_m", "alpha"]))]
@@ -47,8 +47,8 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
     rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
 pub struct AssessCommand {
     /// Table of objects, CSV: width_m,height_m or alpha,p, and optionally id,
-    /// eta, friction (of the floor), limit_ratio (a rotation over alpha that
-    /// must not be exceeded) and floor.
+    /// eta, friction (of the floor), limit_ratio (largest permitted
+    /// |theta|/alpha) and floor.
     #[arg(
         long,
         value_name = "OBJECTS.csv",
@@ -73,8 +73,8 @@ pub struct AssessCommand {
     hazard: Option<PathBuf>,
     #[command(flatten)]
     site: SiteArgs,
-    /// Settle each outcome in sufficient precision, in about thirty times the
-    /// time; without it, doubtful analyses are only counted.
+    /// Settle each outcome with sufficient precision, which takes about thirty
+    /// times as long; without it, doubtful analyses are only counted.
     #[arg(long)]
     certify: bool,
     #[command(flatten)]

@@ -44,7 +44,7 @@ pub struct CapacitiesCommand {
         allow_hyphen_values = true
     )]
     curve: Option<Vertices>,
-    /// Intensity of first overturning of the curve.
+    /// Intensity at which the curve first reaches overturning.
     #[arg(long, value_name = "IM", conflicts_with = "ida")]
     overturning: Option<f64>,
     /// Table of `rocking ida`; `-` is standard input.

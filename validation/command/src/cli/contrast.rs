@@ -10,8 +10,8 @@ use crate::failure::Failure;
 use crate::input;
 
 /// Ratio of the medians of two samples over different records, and the
-/// distance of their distributions. `rocking compare` pairs samples of the
-/// same records.
+/// distance between their distributions. `rocking compare` pairs samples of
+/// the same records.
 ///
 /// The interval of the ratio a/b is from a bootstrap, which draws earthquakes
 /// if a file states them. Kolmogorov and Smirnov's p-value is exact for

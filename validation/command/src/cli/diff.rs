@@ -20,10 +20,10 @@ use rocking_report::diff::{ResultFiles, compare};
 /// of interest: 5 % of a response ratio, 10 % of a median intensity or a
 /// dispersion, 10 points of a share, 0.05 of a probability; in a reference
 /// case, by more than its tolerance. Relevant numbers are sorted by their
-/// change over the half-widths of both intervals (u), or, without intervals,
-/// over that effect; numbers from fewer than 30 records (n) come last. Ends
-/// with 1 if a change is relevant: an answer, a word, a setting, the records,
-/// such a number, or a result that one side lacks.
+/// change divided by the half-widths of both intervals (u) or, without
+/// intervals, by that effect; numbers from fewer than 30 records (n) come
+/// last. Exits with 1 if a change is relevant: an answer, a word, a setting,
+/// the records, such a number, or a result that one side lacks.
 #[derive(clap::Args)]
 pub struct DiffCommand {
     /// Results before.

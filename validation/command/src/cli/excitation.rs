@@ -45,7 +45,7 @@ pub struct ExcitationArgs {
     /// No ground motion: the block is released from an initial rotation.
     #[arg(long, requires = "initial_ratio")]
     free: bool,
-    /// Initial rotation over alpha, in (0, 1).
+    /// Initial rotation divided by alpha, in (0, 1).
     #[arg(long, value_name = "X", requires = "free")]
     initial_ratio: Option<f64>,
     /// Factor on every acceleration.

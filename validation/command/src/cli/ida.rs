@@ -87,7 +87,7 @@ pub struct IdaCommand {
     /// Which components of the pairs.
     #[arg(long, value_enum, default_value_t = ComponentChoice::Study)]
     component: ComponentChoice,
-    /// Settle outcome and peak of each analysis in sufficient precision:
+    /// Settle outcome and peak of each analysis with sufficient precision:
     /// double-double if double precision does not suffice, then octuple;
     /// without it, such analyses are flagged `unresolved`.
     #[arg(long)]

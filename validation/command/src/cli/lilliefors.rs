@@ -43,8 +43,8 @@ pub struct LillieforsCommand {
     #[arg(long, conflicts_with_all = ["critical_values", "write_table"])]
     log: bool,
     /// Test the logarithms of the values above this shift (implies --log).
-    /// `min` takes the smallest value and leaves it out; the null is then
-    /// simulated with the smallest value taken from every draw.
+    /// `min` uses the smallest value as the shift and leaves it out of the
+    /// sample; the null distribution is simulated in the same way.
     #[arg(
         long,
         value_name = "X|min",

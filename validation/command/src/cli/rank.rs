@@ -51,8 +51,8 @@ pub struct RankCommand {
     /// An intensity measure: pga, pgv, pgd, arias, cav, pgv-d575 (PGV
     /// D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean, periods in s),
     /// avgsa:rocking (0.15 to 1.0 times 2 pi/p) or column:NAME (of
-    /// --attributes or the index, proportional to the acceleration); repeat it
-    /// for each [default: pga, pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1,
+    /// --attributes or the index, proportional to the acceleration); may be
+    /// repeated [default: pga, pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1,
     /// 2, 3 and 4 s, and avgsa:rocking]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,

@@ -21,8 +21,8 @@ use rocking_common::suites::{clusters, earthquakes, inputs};
 
 mod measures;
 
-/// List record files: format, interval, length, PGA, PGV, and why one is
-/// refused.
+/// List record files: format, interval, length, PGA, PGV, and the reason for a
+/// refusal.
 #[derive(clap::Args)]
 #[command(mut_arg("plot", |arg| arg.help(
     "Draw one record as SVG: acceleration, velocity, displacement and \

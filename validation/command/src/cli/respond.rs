@@ -50,9 +50,9 @@ pub struct RespondCommand {
     history: Option<PathBuf>,
     #[command(flatten)]
     plot: PlotArg,
-    /// Settle outcome and peak in sufficient precision: double-double if
+    /// Settle outcome and peak with sufficient precision: double-double if
     /// double precision does not suffice, then octuple. With `--until` they
-    /// are those of the time observed.
+    /// are for the observed time.
     #[arg(long)]
     certify: bool,
     /// Largest friction |H|/N that the motion needs at the pivot, and the

@@ -47,7 +47,7 @@ use rocking_draw::figures::of_suite::risk_svg;
     rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
     --alpha 0.15 --p 3")]
 pub struct RiskCommand {
-    /// Hazard curve, CSV; `-` is standard input; repeat it for more SA(T).
+    /// Hazard curve, CSV; `-` is standard input; repeat for more SA(T).
     #[arg(long, value_name = "HAZARD.csv", required = true)]
     hazard: Vec<PathBuf>,
     /// With several --hazard: mean correlation (1: upper bound), dispersion.

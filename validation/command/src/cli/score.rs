@@ -15,10 +15,10 @@ use crate::input;
 /// ANSWERS.csv has the columns `scene,quantity,value`. The scenes, in SI
 /// units, and the quantities to compute are in fixtures/benchmark; its README
 /// explains them. A missing line counts as unanswered. Digits are -log10 of
-/// the relative error, up to what double precision can reach. The diagnosis
+/// the relative error, up to the limit of double precision. The diagnosis
 /// compares all answers with those of 34 wrong models and 15 pairs of them. It
 /// names the mistake that explains the answers, or several that these answers
-/// cannot distinguish, or reports that there is none or an unknown one.
+/// cannot distinguish, or reports that there is no mistake or an unknown one.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking score answers.csv\n  \
@@ -31,8 +31,8 @@ pub struct ScoreCommand {
         required_unless_present = "write_answers"
     )]
     answers: Option<PathBuf>,
-    /// Write a page with a figure: digits against difficulty, beside known
-    /// codes.
+    /// Write a page with a figure: digits against difficulty, compared with
+    /// known codes.
     #[arg(long, value_name = "PAGE.html", requires = "answers")]
     out: Option<PathBuf>,
     /// Write the answers of this program; `-` is standard output.

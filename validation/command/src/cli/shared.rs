@@ -122,7 +122,7 @@ impl ThreadsArg {
 /// The bootstrap of a command that always takes one.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct BootstrapArgs {
-    /// Draws of the bootstrap.
+    /// Number of bootstrap draws.
     #[arg(long, value_name = "N", default_value_t = 1000)]
     bootstrap: usize,
     /// Seed of the bootstrap.

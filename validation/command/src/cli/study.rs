@@ -29,8 +29,8 @@ use rocking_study::runs::Setup;
 /// Default folder of a study.
 pub const REPORT: &str = "rocking-report";
 
-/// Repeats the whole study and writes a report: 15 blocks, two suites,
-/// Figures 1 to 18 with their data, and what was found.
+/// Repeats the whole study and writes a report: 15 blocks, two suites, Figures
+/// 1 to 18 with their data, and the findings.
 ///
 /// Without --ordinary and --pulse it uses the embedded synthetic suites.
 /// `python -m rocking.recorded motions` writes recorded motions (FEMA P-695).

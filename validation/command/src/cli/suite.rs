@@ -26,8 +26,8 @@ enum SuiteAction {
     Export(SuiteExportCommand),
 }
 
-/// Write suites as AT2 files with an index each: the embedded ones, or your
-/// own. `--suite DIR/ordinary.csv` reads them back, bit for bit.
+/// Write suites as AT2 files, each suite with an index: the embedded ones, or
+/// your own. `--suite DIR/ordinary.csv` reads them back, bit for bit.
 #[derive(clap::Args)]
 struct SuiteExportCommand {
     /// A new folder, or an empty one.

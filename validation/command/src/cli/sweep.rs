@@ -23,9 +23,9 @@ use rocking_common::suites::remarks::Remarks;
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
 /// tasks, merge.
 ///
-/// A tile is some blocks with all records of the suite. It is written whole or
-/// not at all, and it states its plan and its checksum. After any failure, run
-/// the same task again: finished tiles are skipped.
+/// A tile is a group of blocks with all records of the suite. It is written
+/// whole or not at all, and it states its plan and its checksum. After any
+/// failure, run the same task again: finished tiles are skipped.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking sweep plan --blocks blocks.csv --suite records/ --out sweep\n  \
@@ -88,7 +88,7 @@ struct SweepPlanCommand {
     /// Keep every level, not only capacities and fragilities.
     #[arg(long)]
     rows: bool,
-    /// Blocks of a tile [default: 1000 over the number of records].
+    /// Blocks per tile [default: 1000 divided by the number of records].
     #[arg(long, value_name = "N")]
     tile_blocks: Option<usize>,
     /// Folder of the plan.

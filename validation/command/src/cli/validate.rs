@@ -68,7 +68,7 @@ pub struct ValidateCommand {
     gravity: f64,
     /// An intensity measure that predicts the same outcomes by itself: pga,
     /// pgv, pgd, arias, cav, pgv-d575, sa:T, avgsa:T1,T2,.. (periods in s) or
-    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p); repeat it for each [default:
+    /// avgsa:rocking (0.15 to 1.0 times 2 pi/p); may be repeated [default:
     /// pga, pgv and avgsa:rocking].
     #[arg(long, value_name = "MEASURE")]
     im: Vec<M>,

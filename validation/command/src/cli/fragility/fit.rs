@@ -27,13 +27,14 @@ use rocking_draw::figures::of_suite::fragilities_svg;
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
 /// an IDA.
 ///
-/// With a shift IM_R the fit is to the capacities above it. Eqs. 5 to 7 are
-/// printed beside the fit: they estimate the same from unshifted statistics.
+/// With a shift IM_R, the fit is to the capacities above it. Eqs. 5 to 7 are
+/// printed beside the fit: they estimate the same fragility from unshifted
+/// statistics.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["sample", "ida"]))]
 #[command(mut_arg("plot", |arg| arg.help(
-    "Draw the fits with the capacities, and with --bootstrap their bands"
+    "Draw fits, capacities and, with --bootstrap, confidence bands"
 )))]
 pub(super) struct FragilityFitCommand {
     /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`

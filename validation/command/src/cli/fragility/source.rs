@@ -33,12 +33,12 @@ use rocking_exchange::sample::SampleSetting;
 /// Sources of fragilities, and the blocks they belong to.
 #[derive(clap::Args)]
 pub struct SourceArgs {
-    /// Sample of capacities; repeat it for each limit state, by rising damage.
+    /// Sample of capacities; one per limit state, by increasing damage.
     #[arg(long, value_name = "FILE")]
     sample: Vec<PathBuf>,
     #[command(flatten)]
     ida: IdaArgs,
-    /// Table of counts, intensity,exceeded,n; repeat it for each limit state.
+    /// Table of counts, intensity,exceeded,n; one per limit state.
     #[arg(
         long,
         value_name = "FILE.csv",
@@ -71,7 +71,7 @@ pub struct SourceArgs {
     /// Name of the block [default: from alpha and p].
     #[arg(long, value_name = "NAME")]
     id: Option<Id>,
-    /// Name of a limit state; repeat it [default: exceeded, LS1, ..].
+    /// Name of a limit state; may be repeated [default: exceeded, LS1, ..].
     #[arg(long, value_name = "NAME")]
     limit_state: Vec<Id>,
     /// Gravity in m/s2.

@@ -222,7 +222,7 @@ impl LawCells {
             "The law: ln of median AvgSA/(g tan alpha) = {}; ln of dispersion \
              = {}; l = ln(p/sqrt 6), d = |theta|/alpha, 1 for overturning. \
              The error of the median is the root mean square of its \
-             logarithm. The error of the model is not in it.",
+             logarithm. It does not include the error of the model.",
             sum(&self.judged.ln_median),
             sum(&self.judged.ln_dispersion)
         )
@@ -294,8 +294,8 @@ impl LawCells {
             "One curve for all blocks and suites",
             "Lognormal fragilities of fifteen blocks under seven suites of \
              motions: in PGA they spread over more than a decade, in AvgSA \
-             they lie on each other. AvgSA at overturning by a single sine \
-             and a single cosine, against the frequency of the pulse over p.",
+             they nearly coincide. AvgSA at overturning by a single sine and \
+             a single cosine, against pulse frequency divided by p.",
         );
         let heading = Heading { place: Place::Answers, ..heading };
         let reading = "(a), (b) Lognormal fragilities of 15 blocks under \
@@ -350,7 +350,7 @@ impl LawCells {
             "AvgSA/(g tan alpha) at overturning, by suite and p",
             format!(
                 "Median with its 95 % interval by earthquake, dispersion, and \
-                 the verdict: the interval over the median by the law lies \
+                 verdict: the interval, divided by the law's median, is \
                  within 0.87 to 1.15 (holds), outside (fails), or neither \
                  (open). alpha = {SHOWN_RAD}, eta = {RESTITUTION}. The law was \
                  fitted to the first suite."
@@ -387,9 +387,10 @@ impl LawCells {
             "law-parts",
             "The part of a motion that overturns a block",
             format!(
-                "Factor on the record at the first overturning by this part, \
-                 over that by the whole record: median, and 16 to 84 % of the \
-                 records. alpha = {SHOWN_RAD}, eta = {RESTITUTION}."
+                "Scale factor at which this part of the record first \
+                 overturns the block, divided by the factor for the whole \
+                 record: median and 16 to 84 % range over the records. \
+                 alpha = {SHOWN_RAD}, eta = {RESTITUTION}."
             ),
             &header,
             rows,

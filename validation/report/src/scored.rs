@@ -54,7 +54,7 @@ pub fn page(scored: &Score) -> String {
                         figcaption {
                             "Digits: −log10 of the relative error, between 0 \
                              and the most that double precision can give, \
-                             which is 15 less log10 of the condition number."
+                             which is 15 minus log10 of the condition number."
                         }
                     }
                     h2 { "Answers with missing digits" }
@@ -127,14 +127,14 @@ pub fn codes_table(settings: &[&str]) -> anyhow::Result<PlainTable> {
     let header: Vec<&str> = names.chain(["wrong outcomes"]).collect();
     Ok(PlainTable::new(
         "other-codes",
-        "How do others do?",
+        "How do other codes compare?",
         format!(
             "Median digits of the answers of this program and of other codes \
              to the reference data set (fixtures/benchmark), by level of \
              difficulty. {explained}Double precision can give 14 to 15 digits \
              if a scene is well conditioned. Physics engines, OpenSees and \
              the penalty model (a block on springs and dampers) have no \
-             linearized equation, so they answer 54 outcomes of 65. \
+             linearized equation, so they answer 54 of 65 outcomes. \
              validation/peers lists the codes that could not be made to \
              rock, and why."
         ),
@@ -362,12 +362,12 @@ fn lacking(score: &Score) -> Markup {
     all.sort_by(|a, b| lacks(a).total_cmp(&lacks(b)));
     if all.is_empty() {
         return html! {
-            p { "None: every answer has all the digits it can have." }
+            p { "None: every answer has all attainable digits." }
         };
     }
     let shown = all.len().min(MOST);
     let reading =
-        format!("{} answers; the {shown} that miss the most:", all.len());
+        format!("{} answers; the {shown} that lack the most:", all.len());
     table::untitled(&by_columns(
         ["lacking", "Answers with missing digits", &reading],
         &all[..shown],

@@ -138,7 +138,7 @@ impl Timings {
             };
             let series = LINES.map(line);
             let x = around(series.iter().flat_map(|s| &s.x), 1.6);
-            let x = ChartAxis::logarithmic("CPU time over ours as shipped", x);
+            let x = ChartAxis::logarithmic("CPU time / ours as shipped", x);
             let x = x.with_second(own_ms, "CPU time (ms)");
             let ys = around(series.iter().flat_map(|s| &s.y), 8.0);
             ChartPanel::new(title, x, y.or_within(ys), series.into())
@@ -189,8 +189,8 @@ impl Timings {
     pub fn precision(&self) -> String {
         let digits = |error: f64| libm::floor(-libm::log10(error));
         format!(
-            "The peak rotation is right to {} digits in the median of {} \
-             analyses and to {} at worst",
+            "The peak rotation is correct to {} digits in the median of {} \
+             analyses and to {} in the worst case",
             digits(self.own.peak_error),
             self.own.cases,
             digits(self.own.peak_error_worst)
@@ -213,7 +213,7 @@ impl Timings {
         };
         let answer = format!(
             "Many analyses run {lanes} times as fast as with {PEER_NAME}, \
-             {error}, and {one} times one at a time."
+             {error}, and {one} times as fast one at a time."
         );
         let equal = self.fastest().map(|(setting, ours)| {
             format!("; {} times at {setting}", self.times(ours))
@@ -230,7 +230,7 @@ impl Timings {
         let equal = self.fastest().map(|(setting, ours)| {
             format!(
                 " At {setting}, our fastest setting with no larger error, it \
-                 is {} times.",
+                 is {} times as many.",
                 self.times(ours)
             )
         });
@@ -362,10 +362,9 @@ impl Timings {
         };
         PlainTable::new(
             "speed-settings",
-            "Which of our settings when",
-            "Chains moved: of 15 blocks under all embedded records, the \
-             number whose first overturning is at another level than as \
-             shipped.",
+            "Which of our settings to use",
+            "Chains moved: number of IDAs (15 blocks, all embedded records) \
+             whose first overturning is at another level than as shipped.",
             &[
                 "setting",
                 "single analyses: time / as shipped",

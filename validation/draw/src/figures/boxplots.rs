@@ -155,7 +155,7 @@ pub(super) fn panels(figure: &Boxplots) -> Panels {
         let medians = ChartPanel::new(
             format!("{p}, medians"),
             Axis::linear(-reach, reach, 6).label(format!(
-                "median of {} over closed form, minus 1 (%)",
+                "deviation of median {} from closed form (%)",
                 figure.ratio_label
             )),
             levels(longest.unwrap_or(last)),

@@ -101,10 +101,7 @@ impl FateMap {
         let panel = ChartPanel::new(
             "",
             ChartAxis::logarithmic("pulse frequency *ω*/*p*", x),
-            ChartAxis::logarithmic(
-                "amplitude over the threshold *g* tan *α*",
-                y,
-            ),
+            ChartAxis::logarithmic("amplitude / (*g* tan *α*)", y),
             series,
         );
         let grid = Grid { above: 10.0, ..Grid::new(1, 1).plot(600.0, 360.0) };

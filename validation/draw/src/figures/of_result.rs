@@ -36,7 +36,7 @@ pub fn response_svg(
     let heading = Heading::new(
         "history",
         "Response history",
-        "Rotation over slenderness against time.",
+        "Rotation divided by slenderness, against time.",
     );
     histories(heading, &[panel], 1, String::new()).svg()
 }
@@ -128,7 +128,7 @@ pub fn ranking_svg(
     let x = ChartAxis::named(names.collect());
     let label = format!("dispersion at EDP {edp}");
     let series = Series::new(
-        "95 % interval by the bootstrap of records",
+        "95 % interval from a bootstrap of records",
         Mark::Points,
         (1..=rows.len()).map(|k| k as f64).collect(),
         beta.clone().map(|beta| beta.value()).collect(),
@@ -165,7 +165,7 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
         vec![
             Series::new("these answers", Mark::Points, x, y),
             Series::new(
-                "what double precision can get",
+                "limit of double precision",
                 Mark::Dashed,
                 line_x,
                 line_y,
@@ -175,7 +175,7 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
     let own = ("these answers", score);
     let right = by_level("Median of each level", codes, own, "best");
     let words = "Digits of each answer against its condition number, and \
-                 the median of each level beside known codes.";
+                 the median of each level compared with known codes.";
     let heading = ["score", "Digits against difficulty", words];
     Chart::of(heading, vec![left, right]).figure(String::new()).svg()
 }

@@ -56,8 +56,8 @@ pub fn ida_svg(
     let y = ChartAxis::linear(intensity, ends);
     let n = curves.len();
     let words = format!(
-        "Largest rotation over slenderness against intensity, of {n} records, \
-         and its quantiles; a curve is level where the block overturns."
+        "Largest rotation divided by slenderness against intensity, {n} \
+         records, and its quantiles; a curve is level at overturning."
     );
     let panel = ChartPanel::new(block, x, y, series);
     svg(["ida", "IDA curves", &words], vec![panel])
@@ -90,9 +90,9 @@ pub fn stripes_svg(
             series,
         )
     };
-    let rotation = "Rotation where the block stands";
-    let words = "Largest rotation over slenderness at each intensity, its \
-                 quantiles, and the share of the records that overturn.";
+    let rotation = "Rotation if the block stands";
+    let words = "Largest rotation divided by slenderness at each intensity, \
+                 its quantiles, and the share of the records that overturn.";
     svg(
         ["stripes", "Responses at stripes", words],
         vec![
@@ -138,8 +138,8 @@ pub fn fragilities_svg(
     let x = ChartAxis::linear(markup::escape(intensity), (0.0, last));
     let y = ChartAxis::linear("probability of damage", (0.0, 1.0));
     let words = "Probability of damage against intensity: the fitted \
-                 distribution, its band where draws were asked for, and what \
-                 it is fitted to.";
+                 distribution, its band if requested, and the data it is \
+                 fitted to.";
     let panel = ChartPanel::new(marks, x, y, series);
     svg(["fragility", "Fragility", words], vec![panel])
 }

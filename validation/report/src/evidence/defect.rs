@@ -48,22 +48,22 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
         Ok(ChartPanel::new(title, x, y, series))
     };
     let panels = vec![
-        panel("amplitude over *g* tan *α*", true)?,
-        panel("amplitude over *g* *α*", false)?,
+        panel("amplitude / (*g* tan *α*)", true)?,
+        panel("amplitude / (*g* *α*)", false)?,
     ];
     let heading = Heading::numbered(
         19,
         "Departure of Eq. 1 from similarity as the slenderness grows",
-        "Relative change of the first impact speed over p alpha under four \
-         one-sine pulses, against the slenderness, on logarithmic axes, for \
+        "Relative change of the first impact speed divided by p alpha under \
+         four one-sine pulses, against slenderness, on logarithmic axes, for \
          two normalizations of the amplitude; a dashed line has slope 2.",
         None,
     );
     let (low, high) = range(slopes.into_iter());
     Ok(Chart { heading, panels, columns: 2 }.figure(format!(
-        "In Eq. 2 the response over alpha does not depend on alpha. In Eq. 1 \
-         it departs from similarity with the square of alpha: slopes of \
-         {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
+        "In Eq. 2 the response divided by alpha does not depend on alpha. In \
+         Eq. 1 the departure from similarity grows with the square of alpha: \
+         slopes of {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
     )))
 }
 

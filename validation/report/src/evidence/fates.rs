@@ -75,8 +75,8 @@ pub(super) fn map() -> anyhow::Result<Figure> {
     let heading = Heading::numbered(
         21,
         "Map of outcomes under one-sine pulses",
-        "Cells of a plane of pulse frequency over p and amplitude over the \
-         uplift threshold, both logarithmic, coloured by the outcome of a \
+        "Amplitude divided by the uplift threshold against pulse frequency \
+         divided by p, both logarithmic; cells coloured by the outcome of a \
          block in Eq. 1: it stands, or overturns before an impact, after \
          one, or after more. Two lines are closed-form boundaries of Eq. 2.",
         None,

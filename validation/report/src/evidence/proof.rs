@@ -180,7 +180,7 @@ impl Proof {
             "End: the peak of |theta|/alpha, or the instant of overturning. \
              Impacts: the worst of the instants and speeds of the first ten. \
              If there is no reference of 36 digits, the double-double run is \
-             taken for the truth. The same source runs in all three \
+             taken as the truth. The same source runs in all three \
              precisions; digits that double precision lacks are lost to the \
              sensitivity of the motion, which the error estimate reports.",
             &[

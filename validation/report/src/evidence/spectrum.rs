@@ -157,7 +157,7 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
         ChartPanel::new(
             title,
             ChartAxis::logarithmic("*ω*/*p*", (LOWEST, 10.0)),
-            ChartAxis::logarithmic("amplitude over threshold", (1.0, TOP)),
+            ChartAxis::logarithmic("amplitude / threshold", (1.0, TOP)),
             vec![
                 band("after one impact (mode 1)", &mode_1),
                 band("without impact (mode 2)", &mode_2),
@@ -171,16 +171,16 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
     let heading = Heading::numbered(
         20,
         "Overturning spectrum of one-sine pulses",
-        "Amplitude over the uplift threshold against frequency over p at \
-         which a block overturns, restitution 0.92: after one impact, without \
-         impact, and in narrow bands after three and more; by two criteria, \
-         in Eq. 2 (regions) and in Eq. 1 (dashed).",
+        "Amplitude at which a block overturns, divided by the uplift \
+         threshold, against frequency divided by p, restitution 0.92: after \
+         one impact, without impact, and in narrow bands after three and \
+         more; two criteria, in Eq. 2 (regions) and in Eq. 1 (dashed).",
         None,
     );
     let panels = panels.chain([panel]).collect();
     let reading = format!(
         "Mode 1 ends at omega/p = {fold:.3}; above it a safe zone opens below \
-         mode 2. By |theta| >= alpha the zone opens only at 6.999. At omega/p \
+         mode 2. For |theta| >= alpha it opens only at 6.999. At omega/p \
          = 0.5 a pulse {:.1} % above the threshold overturns the block after \
          {impacts} impacts; mode 1 needs a stronger pulse. Shaded: Eq. 2.",
         100.0 * (lowest - 1.0)
@@ -227,7 +227,7 @@ fn low_frequencies(
     let panel = ChartPanel::new(
         "low frequencies, |*θ*| > *π*/2, Eq. 2",
         ChartAxis::linear("*ω*/*p*", (LOWEST, highest)),
-        ChartAxis::linear("amplitude over threshold", (1.0, 1.2)),
+        ChartAxis::linear("amplitude / threshold", (1.0, 1.2)),
         series,
     );
     Ok((panel, lowest))

@@ -63,8 +63,8 @@ pub fn similarity(proof: &Proof) -> PlainTable {
     let own = proof.cases().filter(|(case, _)| case.method == PULSE_METHOD);
     let header = [
         "pulse",
-        "frequency over p",
-        "amplitude over g alpha",
+        "frequency / p",
+        "amplitude / (g alpha)",
         "eta",
         "impacts compared",
         "peak, relative error",

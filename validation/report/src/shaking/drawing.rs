@@ -116,7 +116,7 @@ impl RockTests {
         );
         let median = by_measure(
             self,
-            "measured over computed median",
+            "ratio of measured to computed median",
             ChartAxis::linear("ratio", None),
             ModelError::fitted().bias().ends(),
             |own| own.median_ratio,

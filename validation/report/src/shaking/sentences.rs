@@ -138,7 +138,7 @@ impl RockTests {
     }
 
     fn restitution(&self) -> TestedSentence {
-        self.tested("A restitution below Housner's serves better", |k| {
+        self.tested("A restitution below Housner's fits better", |k| {
             let [own, housner] = [&self.fitted[k], &self.housner[k]]
                 .map(|own| own.computed.log_likelihood);
             let numbers = format!(
@@ -163,9 +163,9 @@ impl RockTests {
         };
         PlainTable::new(
             "tested-sentences",
-            "Statements beside the measured outcomes",
+            "Statements and the measured outcomes",
             "Statements 1, 2 and 4 are the paper's; 1 and 2 use all tests. \
-             Alpha is fitted anew for each restitution.",
+             Alpha is refitted for each restitution.",
             &["statement", "seen in these tests", "rock 1", "rock 2"],
             all.map(row).into(),
         )
@@ -224,7 +224,7 @@ impl RockTests {
             "The first overturning of the block predicts {} of the outcomes \
              correctly. By the log score, average SA (0.3 to 1.5 s) by itself \
              predicts them {}, PGV {}, PGA {}. Tests scatter, too: of pairs of \
-             tests with one motion and PGAs within 5 %, {pairs} have \
+             tests with the same motion and PGAs within 5 %, {pairs} have \
              different outcomes.",
             self.fitted_each(|own| share(&own.computed.right)),
             words(TestMeasure::AVERAGE_SA),
@@ -283,8 +283,8 @@ impl RockTests {
         format!(
             "Lognormals are fitted in the same way to measured and computed \
              outcomes. If the measured one is wider, the root of the \
-             difference of the squares is the dispersion that the model \
-             leaves out: {}, {}, {}. Decisions (assess, risk, export) \
+             difference of the squared dispersions is the dispersion that the \
+             model leaves out: {}, {}, {}. Decisions (assess, risk, export) \
              therefore multiply each capacity by a lognormal factor of \
              dispersion {} and median {}; the median for a fitted object is \
              {}. The range of the dispersion {held}. The wider range of the \

@@ -35,7 +35,7 @@ impl RockTests {
             "The block is predicted to overturn from its first overturning \
              on, and by a measure if the fitted probability is above one \
              half. Log score: mean of -ln of the probability of the outcome, \
-             by a fit without the motion of the test; small is good.",
+             by a fit without the motion of the test; smaller is better.",
             &[
                 "predictor",
                 "outcomes right, rock 1",
@@ -83,9 +83,9 @@ impl RockTests {
             "test-choices",
             "Other choices of the block and the motions",
             format!(
-                "Bias: median of measured over computed capacity, 1 if alpha \
-                 is fitted, as it is anew in each row unless it is rounded. In {} tests the stated PGA, a target, is more than \
-                 10 % off the measured one.",
+                "Bias: median of measured/computed capacity, 1 if alpha is \
+                 fitted (in each row unless rounded). In {} tests the stated \
+                 PGA, a target, is more than 10 % off the measured one.",
                 self.targets
             ),
             &header,

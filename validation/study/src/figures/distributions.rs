@@ -277,7 +277,7 @@ pub(super) fn shares(
     let mut legend: Vec<Entry> = marks.collect();
     legend.push(Entry::new(
         Sample::Line(EXPECTED),
-        format!("expected of a lognormal: {}", percent(1.0 - LEVEL, 0)),
+        format!("expected for a lognormal: {}", percent(1.0 - LEVEL, 0)),
     ));
     if is_banded {
         let grid = common.name();

@@ -84,8 +84,8 @@ pub(super) fn constants(
     Ok(chart.thinned((440.0, 230.0)).laid_out(
         &layout,
         format!(
-            "Largest distance of USFL7 to the SSFL in probability for c = \
-             0.25, 0.5, 0.75, 1: {}.",
+            "Largest difference in probability between USFL7 and the SSFL \
+             for c = 0.25, 0.5, 0.75, 1: {}.",
             words.join("; ")
         ),
     ))

@@ -138,10 +138,10 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
     format!(
         "Medians with exact 95 % intervals against the closed form (sin \
          alpha/alpha)/(sin 0.1/0.1), and boxplots as in the paper. Medians of \
-         {counted} ratios or more are within {} of the closed form; all {} \
-         medians are between {low:.3} and {high:.3}. Percentages at the right: \
-         share of usable ratios, {} at least. Boxes of fewer than 20 ratios \
-         have no notch.",
+         at least {counted} ratios are within {} of the closed form; all {} \
+         medians are between {low:.3} and {high:.3}. Percentages on the \
+         right: share of usable ratios, at least {}. Boxes of fewer than 20 \
+         ratios have no notch.",
         percent(off, 2),
         stripes().count(),
         percent(least, 1)

@@ -48,8 +48,8 @@ pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
         format!("{:.3}", single.median_of(|a| a.distance))
     });
     let words = format!(
-        "Over all {} records the median normalized distance of a history to \
-         the history of alpha = 0.10 is {distances}.",
+        "Over all {} records, the median normalized distance of a history \
+         from the history for alpha = 0.10 is {distances}.",
         suite.records.len(),
     );
     histories(heading, &panels, 3, words)
@@ -135,7 +135,7 @@ pub(super) fn curves(
     Ok(chart.thinned((WIDTH_PX, HEIGHT_PX)).laid_out(
         &layout,
         format!(
-            "Over all {} records the intensity that reaches a given demand \
+            "Over all {} records, the intensity that reaches a given demand \
              differs from the intensity for alpha = 0.10 by a median of \
              {differences}.",
             suite.records.len(),

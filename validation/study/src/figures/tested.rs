@@ -296,8 +296,8 @@ pub(super) fn along(
     Ok(Chart { heading, panels, columns: 3 }.laid_out(
         &layout,
         format!(
-            "Of the original and of the shifted levels the test accepts \
-             {}.{diamond}",
+            "Of the levels of the original and the shifted sample, the test \
+             accepts {}.{diamond}",
             words.join(", "),
         ),
     ))

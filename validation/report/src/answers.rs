@@ -14,7 +14,7 @@ use crate::timings::Timings;
 use rocking_common::findings::{
     Claim, Findings, Seen, SuiteSet, SuiteSummary, Theme,
 };
-use rocking_common::words::rounded_text;
+use rocking_common::words::{percent, rounded_text};
 use rocking_draw::figures::Figure;
 
 /// The questions that claims answer; the file says what its fields are.
@@ -138,11 +138,17 @@ impl AnswerNumber {
                 *text += &format!(" {suite}");
             }
         }
+        let differs = listed.len() > 1;
         let listed = format!("{} {}", self.name, listed.join(", "));
         let by_size = all.into_iter().max_by(|(_, a, _), (_, b, _)| {
             if self.least { b.total_cmp(a) } else { a.total_cmp(b) }
         });
-        Some((by_size?.2.value, listed))
+        let (suite, _, text) = by_size?;
+        let value = match differs {
+            true => format!("{} ({suite})", text.value),
+            false => text.value,
+        };
+        Some((value, listed))
     }
 }
 
@@ -284,14 +290,20 @@ pub(super) fn rows(
         row(
             "How exact and how fast is the computation?",
             format!("{} {fast}", exact(timings, proof, lead)),
-            format!("{}; {}; {rate}", backed(proof), timings.error()),
+            format!(
+                "{}; {}; {rate}. Rounding may have changed {} of all analyses",
+                backed(proof),
+                timings.error(),
+                flagged(lead)
+            ),
             &[("evidence", "proof"), ("speed", "speed")],
         ),
         row(
             "What was not checked?",
             format!(
-                "Any object but two granite rocks: with one angle fitted to \
-                 each, the model gives {}. It leaves out {LEFT_OUT}.",
+                "No object other than two granite rocks, for which the model, \
+                 with one angle fitted to each, gives {}. The model leaves out \
+                 {LEFT_OUT}.",
                 tests.right()
             ),
             format!("{}. {}", tests.right_each(), not_run(basis)),
@@ -333,8 +345,8 @@ fn exact(timings: &Timings, proof: Option<&Proof>, lead: &Findings) -> String {
     match proof.map(|proof| (proof.failed(), proof.results().len())) {
         None => "Not known: the reference cases were not run here.".into(),
         Some((0, _)) => format!(
-            "{}, and rounding moves no percentile of overturning by more than \
-             {}.",
+            "{}, and rounding moves no 16, 50 or 84 % overturning intensity \
+             under these motions by more than {} g tan α.",
             timings.precision(),
             rounded_text(shifts.fold(0.0, f64::max))
         ),
@@ -355,12 +367,20 @@ fn repeatable(basis: &FindingSets<'_>) -> &'static str {
     }
 }
 
+/// The share of analyses that rounding may have changed.
+fn flagged(lead: &Findings) -> String {
+    let all: u64 = lead.suites.iter().map(|s| s.analyses).sum();
+    let open: usize = lead.suites.iter().map(|s| s.unresolved).sum();
+    percent(open as f64 / all as f64, 1)
+}
+
 fn signed(proof: Option<&Proof>) -> &'static str {
     match proof.map(Proof::failed) {
         None => "Nothing yet: the reference cases were not run.",
         Some(0) => {
-            "That the equations are solved and the statistics computed as \
-             stated. Not that a real object behaves like the model."
+            "That every reference case passes, that the files have the listed \
+             hashes, and that the answers agree with the numbers. Not that a \
+             real object behaves like the model."
         }
         Some(_) => "Nothing before every reference case passes.",
     }
@@ -461,9 +481,8 @@ pub(super) fn summary(
     ])
 }
 
-/// How many results the embedded motions and each kind of recorded ones have
-/// in common, and which answers differ; or that recorded results were left
-/// out.
+/// How many results and which answers differ on the other motions, and what
+/// these are; or that recorded results were left out.
 ///
 /// # Errors
 /// As [`answers`].
@@ -473,35 +492,31 @@ pub(super) fn differing(
     if !basis.has_recorded() {
         return basis.left_out();
     }
-    let own = answers(basis.here)?;
+    let lead = basis.lead();
+    let kept = answers(lead)?;
     let mut words = vec![
-        "The synthetic motions that come with the program are judged as well."
+        "The answers are from the motions “recorded, stored”. “Recorded, \
+         repeatable” are those of FEMA P-695, which anyone can install; \
+         “embedded” are synthetic motions that come with the program."
             .to_owned(),
     ];
-    for (name, recorded) in basis.recorded() {
+    for (name, found) in basis.columns().into_iter().skip(1) {
         let counted = |claim: &Claim| claim.theme != Theme::Beyond;
-        let (turned, all) = turned(basis.here, recorded, counted);
-        let kept = answers(recorded)?;
+        let (turned, all) = turned(found, lead, counted);
+        let own = answers(found)?;
         let other = own.iter().zip(&kept).filter(|(a, b)| a.lead != b.lead);
         let other: Vec<String> = other
-            .map(|(own, kept)| {
-                let word =
-                    |lead: Option<Seen>| lead.map_or("no data", Seen::name);
-                format!(
-                    "“{}” ({} there, {} here)",
-                    own.question,
-                    word(kept.lead),
-                    word(own.lead)
-                )
+            .map(|(own, _)| {
+                let word = own.lead.map_or("no data", Seen::name);
+                format!("“{}” ({word})", own.question)
             })
             .collect();
         let answers = match other.as_slice() {
-            [] => "no answer differs".into(),
-            other => format!("these answers differ: {}", other.join(", ")),
+            [] => "no answer changes".into(),
+            other => format!("these answers change: {}", other.join(", ")),
         };
         words.push(format!(
-            "Beside the motions “{name}”, {} of {all} results differ, and \
-             {answers}.",
+            "On the motions “{name}” {} of {all} results differ, and {answers}.",
             turned.len()
         ));
     }

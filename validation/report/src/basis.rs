@@ -62,6 +62,12 @@ impl<'a> FindingSets<'a> {
         self.columns()[0].1
     }
 
+    /// That figures without other motions are of the embedded ones.
+    pub fn figures_here(&self) -> Option<String> {
+        let words = "The figures of this annex show the embedded motions.";
+        self.embedded.then(|| words.to_owned())
+    }
+
     /// All findings, those that answer first.
     pub fn columns(&self) -> Vec<FindingColumn<'_>> {
         let here = if self.embedded { "embedded" } else { "your suites" };

@@ -199,11 +199,12 @@ impl LawCells {
         let numbers = format!(
             "Blocks: p {p_low} to {p_high} rad/s, alpha {alpha_low} to \
              {alpha_high}, eta {eta_low} to {eta_high}; of {all} cells of six \
-             other suites {} shown within 15 %, {} beyond; dispersion \
+             other suites {} shown within 15 %, {} beyond, {} open; dispersion \
              {s_high:.2} to {s_low:.2}, falling with p; tests of two \
              rocks {} times the law",
             cells.holds,
             cells.fails,
+            cells.open,
             rocks.join(" and ")
         );
         Ok((answer, numbers))

@@ -148,7 +148,7 @@ pub fn files(
         lab,
     };
     let annexes = annexes(&page)?;
-    let mut titles = titles(study, &charts);
+    let mut titles = titles(study, figures.iter().chain(&charts));
     let filed = annexes.iter().filter(|annex| annex.is_filed);
     for table in filed.flat_map(|annex| &annex.tables) {
         put(&mut files, format!("{}.csv", table.name), csv(table))?;
@@ -211,8 +211,11 @@ fn list(
 }
 
 /// What the files hold, by name.
-fn titles(study: &Study, charts: &[Figure]) -> BTreeMap<String, String> {
-    let figures = study.figures.iter().chain(charts).map(|figure| {
+fn titles<'a>(
+    study: &Study,
+    figures: impl Iterator<Item = &'a Figure>,
+) -> BTreeMap<String, String> {
+    let figures = figures.map(|figure| {
         let heading = &figure.heading;
         (
             heading.name.clone(),

@@ -123,9 +123,9 @@ impl SentenceCounts {
     pub fn words(&self) -> String {
         let Self { all, seen: [yes, no, part, not], .. } = self;
         format!(
-            "Of the paper's {all} testable statements, {yes} are seen again \
-             by the authors' own criteria, {no} are not, and {part} in part; \
-             {not} cannot be tested with these records."
+            "Of {all} statements of the paper, {yes} are seen again by the \
+             authors' own criteria, {no} are not, and {part} in part; {not} \
+             cannot be tested with these records."
         )
     }
 
@@ -134,8 +134,8 @@ impl SentenceCounts {
         let Self { shown, opposite, denied, .. } = self;
         format!(
             "Beyond these records, the effect that a statement names is shown \
-             for {shown}, and its opposite for {opposite}; {denied} deny an \
-             effect that exists, however small."
+             on every suite for {shown}, and its opposite on a suite for \
+             {opposite}; {denied} deny an effect that exists, however small."
         )
     }
 }

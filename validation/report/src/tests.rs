@@ -310,7 +310,7 @@ fn figure_18_is_about_its_claim(found: &Findings, page: &str) {
         .results
         .iter()
         .find(|r| r.suite == SuiteSet::Ordinary && r.arm == Some(Arm::C));
-    let start = "to the SSFL in probability for c = 0.25, 0.5, 0.75, 1: \
+    let start = "between USFL7 and the SSFL for c = 0.25, 0.5, 0.75, 1: \
                  untrimmed ";
     // Kept captions are renewed with the kept results.
     let caption = page.rsplit_once(start).expect("a caption").1;

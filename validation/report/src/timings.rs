@@ -216,7 +216,7 @@ impl Timings {
              {error}, and {one} times as fast one at a time."
         );
         let equal = self.fastest().map(|(setting, ours)| {
-            format!("; {} times at {setting}", self.times(ours))
+            format!("; {} times as fast at {setting}", self.times(ours))
         });
         let equal = equal.unwrap_or_default();
         let rate = self.paper.rate_per_s();

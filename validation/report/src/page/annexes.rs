@@ -101,8 +101,15 @@ pub(crate) fn annexes<'a>(page: &Page<'a>) -> anyhow::Result<Vec<Annex<'a>>> {
             Vec::new(),
         )
         .with(on_grid.collect()),
-        Annex::new("beyond", "Questions beyond the paper", others.collect())
-            .with(page.placed(Place::Beyond)),
+        Annex {
+            text: basis.figures_here().into_iter().collect(),
+            ..Annex::new(
+                "beyond",
+                "Questions beyond the paper",
+                others.collect(),
+            )
+        }
+        .with(page.placed(Place::Beyond)),
         Annex::new(
             "suites-by-block",
             "Suites: motions, and capacities block by block",

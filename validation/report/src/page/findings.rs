@@ -10,7 +10,7 @@ use crate::findings::identities;
 use crate::quantity::{
     EstimateText, ValueScale, count_text, effect_text, rule_text, said_text,
 };
-use crate::sentences::{SentenceCounts, SuiteResult, by_suite, by_theme};
+use crate::sentences::{SuiteResult, by_suite, by_theme};
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Exists, Kind, StatedEffect, SuiteSet, Theme,
 };
@@ -35,8 +35,7 @@ pub fn section(page: &Page<'_>) -> Markup {
     let identities = identities(page.basis.here);
     html! {
         p {
-            (legend()) " "
-            (SentenceCounts::of(page.basis.lead()).effects())
+            (legend())
         }
         @for (theme, anchor) in THEMES { (about(page, theme, anchor)) }
         (folded(

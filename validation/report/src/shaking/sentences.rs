@@ -284,7 +284,8 @@ impl RockTests {
             "Lognormals are fitted in the same way to measured and computed \
              outcomes. If the measured one is wider, the root of the \
              difference of the squared dispersions is the dispersion that the \
-             model leaves out: {}, {}, {}. Decisions (assess, risk, export) \
+             model leaves out: {}, {}, {}. Decisions (commands assess, risk, \
+             fragility export) \
              therefore multiply each capacity by a lognormal factor of \
              dispersion {} and median {}; the median for a fitted object is \
              {}. The range of the dispersion {held}. The wider range of the \

@@ -12,7 +12,6 @@ use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use rocking_common::table::number;
-use rocking_common::words::{percent, range};
 use rocking_draw::axis::Axis;
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
@@ -51,7 +50,11 @@ pub(super) fn slendernesses(
         };
         own.map(one).collect()
     })?;
-    let words = spread_in_words(&panels);
+    let words =
+        "A curve has the demand that 16, 50 or 84 % of the motions do \
+                 not exceed, so the curve of 16 % is the uppermost. A curve \
+                 turns level where its quantile overturns."
+            .to_owned();
     let heading = paper_heading(8, Some(arm));
     Ok(figure(heading, &panels, words))
 }
@@ -132,21 +135,6 @@ fn edge_words(groups: &[Series]) -> Vec<Series> {
     };
     let all = [(2, "84 %"), (1, "50 %"), (0, "16 %")];
     all.into_iter().filter_map(words).collect()
-}
-
-/// Spread of the slendernesses' median overturning intensities, in words.
-fn spread_in_words(panels: &[QuantilePanel]) -> String {
-    let spreads = panels.iter().zip(FREQUENCIES_RAD_S).map(|(groups, p)| {
-        let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
-        let (low, high) = range(groups.iter().map(first));
-        format!("{} at p = {p}", percent(high / low - 1.0, 1))
-    });
-    let spreads: Vec<String> = spreads.collect();
-    format!(
-        "Median overturning intensities of the five shapes differ by at most \
-         {}.",
-        spreads.join(", ")
-    )
 }
 
 /// Figure 10.

@@ -286,7 +286,7 @@ fn every_word_and_the_score_follow_from_the_numbers_beside_them() {
             sentences.values().filter(of).count()
         };
         let score = format!(
-            "Of the paper's {} testable statements, {} are seen again by the \
+            "Of {} statements of the paper, {} are seen again by the \
              authors' own criteria, {} are not, and {} in part; {} cannot be \
              tested with these records.",
             words.len(),
@@ -297,8 +297,8 @@ fn every_word_and_the_score_follow_from_the_numbers_beside_them() {
         );
         let found = format!(
             "Beyond these records, the effect that a statement names is shown \
-             for {}, and its opposite for {}; {} deny an effect that exists, \
-             however small.",
+             on every suite for {}, and its opposite on a suite for {}; {} \
+             deny an effect that exists, however small.",
             effects(true, &|all| {
                 !all.is_empty() && all.iter().all(|e| *e == "yes")
             }),

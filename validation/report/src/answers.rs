@@ -459,7 +459,7 @@ pub(super) fn summary(
              and Dimitrakopoulos, “Statistical property parameterization of \
              simple rocking block response” (Earthquake Engineering and \
              Structural Dynamics) [1]: which properties of a free-standing \
-             object (a statue, a cabinet, a column) decide whether it \
+             object (statue, cabinet, column) decide whether it \
              overturns in an earthquake, and which probability distribution \
              describes that. Our own program computed 15 blocks under \
              {motions}, {}: {} analyses.",

@@ -149,7 +149,7 @@ pub(super) fn by_theme(theme: Theme, basis: &FindingSets<'_>) -> String {
     let words = format!("{yes} of {} statements are seen here.", all.len());
     let others = basis.columns().into_iter().skip(1).map(|(name, found)| {
         let (turned, all) = turned(found, lead, own);
-        format!("{} of {all} on the motions “{name}”", turned.len())
+        format!("{} of {all} ({name})", turned.len())
     });
     match others.collect::<Vec<_>>().join(", ").as_str() {
         "" => words,

@@ -83,7 +83,7 @@ pub struct AssessCommand {
     bootstrap: BootstrapArgs,
     #[command(flatten)]
     threads: ThreadsArg,
-    /// Folder of the page; must be new or empty.
+    /// Folder for the page; must be new or empty.
     #[arg(long, value_name = "DIR", default_value = "rocking-assessment")]
     out: PathBuf,
     /// Print assess.json.

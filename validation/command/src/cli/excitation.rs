@@ -48,7 +48,7 @@ pub struct ExcitationArgs {
     /// Initial rotation divided by alpha, in (0, 1).
     #[arg(long, value_name = "X", requires = "free")]
     initial_ratio: Option<f64>,
-    /// Factor on every acceleration.
+    /// Factor applied to every acceleration.
     #[arg(long, value_name = "F", conflicts_with_all = ["pga", "im", "free"])]
     scale: Option<f64>,
     /// Scale to this peak ground acceleration in g.

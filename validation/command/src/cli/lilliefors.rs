@@ -36,13 +36,13 @@ const REPLICATES: u64 = 1_000_000;
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "critical_values", "write_table"]))]
 pub struct LillieforsCommand {
-    /// Sample file: one value a line, `#` comments.
+    /// Sample file: one value per line, `#` comments.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     /// Test the logarithms of the values.
     #[arg(long, conflicts_with_all = ["critical_values", "write_table"])]
     log: bool,
-    /// Test the logarithms of the values above this shift (implies --log).
+    /// Test the logarithms of the values minus this shift (implies --log).
     /// `min` uses the smallest value as the shift and leaves it out of the
     /// sample; the null distribution is simulated in the same way.
     #[arg(

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 /// Work beyond which a run is refused.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct LimitArgs {
-    /// Largest number of impacts of a run [default: 1e6, `ida` 1e7].
+    /// Largest number of impacts in a run [default: 1e6, `ida` 1e7].
     #[arg(long, value_name = "N")]
     most_impacts: Option<u64>,
     /// Largest number of steps of a run, or of points of a history [default:

@@ -14,7 +14,7 @@ use crate::input;
 /// interval of its median.
 #[derive(clap::Args)]
 pub struct SampleCommand {
-    /// Sample file: one value a line, `inf` for a censored one, `#` comments;
+    /// Sample file: one value per line, `inf` for a censored one, `#` comments;
     /// `-` is standard input.
     #[arg(long, value_name = "FILE")]
     sample: PathBuf,

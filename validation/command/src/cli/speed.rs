@@ -30,7 +30,7 @@ use rocking_report::speed::{export, many};
 /// double-double, and the paper's whole analysis of a suite, in lanes and
 /// one analysis at a time.
 ///
-/// It takes some minutes. Times are processor time and differ from run to run
+/// It takes a few minutes. Times are processor time and differ from run to run
 /// and machine to machine; errors and work do not.
 #[derive(clap::Args)]
 pub struct SpeedCommand {

@@ -50,7 +50,7 @@ pub struct StripesCommand {
         allow_hyphen_values = true
     )]
     levels: EdpLevels,
-    /// EDP level whose exceedances --counts counts; `inf` is overturning.
+    /// EDP level for which --counts counts exceedances; `inf` is overturning.
     #[arg(long, value_name = "E", requires = "counts")]
     at: Option<f64>,
     /// Write which records exceed --at at each intensity, for `rocking

@@ -101,7 +101,7 @@ struct SweepPlanCommand {
 struct SweepRunCommand {
     /// Folder of the plan.
     dir: PathBuf,
-    /// This task, from 0 [default: from SLURM, PMI or Open MPI, else 0].
+    /// Index of this task, from 0 [default: from SLURM, PMI or Open MPI, else 0].
     #[arg(long, value_name = "I", requires = "of")]
     task: Option<usize>,
     /// Number of tasks [default: from SLURM, PMI or Open MPI, else 1].

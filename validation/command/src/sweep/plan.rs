@@ -52,7 +52,7 @@ pub struct SweepPlan {
     /// Their earthquakes; empty if the suite does not state them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<String>,
-    /// Blocks of a tile; the last tile may have fewer.
+    /// Blocks per tile; the last tile may have fewer.
     pub tile_blocks: usize,
 }
 

@@ -185,7 +185,7 @@ fn medians(blocks: &[BoxPanel], reach: f64) -> Vec<Series> {
     let middle = (blocks.len() as f64 - 1.0) / 2.0;
     for (k, shown) in blocks.iter().enumerate() {
         let ink = common::ink(shown.alpha_rad);
-        let own: Vec<(f64, (f64, Option<(f64, f64)>))> = (1..)
+        let own: Vec<(f64, MedianOff)> = (1..)
             .map(|row| f64::from(row) + APART * (k as f64 - middle))
             .zip(&shown.stripes)
             .filter_map(|(y, stripe)| Some((y, stripe.median()?)))
@@ -212,9 +212,12 @@ fn medians(blocks: &[BoxPanel], reach: f64) -> Vec<Series> {
     all
 }
 
+/// A median and its interval.
+type MedianOff = (f64, Option<(f64, f64)>);
+
 impl Stripe {
     /// The median and its interval, per cent off the closed form.
-    fn median(&self) -> Option<(f64, Option<(f64, f64)>)> {
+    fn median(&self) -> Option<MedianOff> {
         let b = self.summary.as_ref()?;
         let of = self.closed_form.unwrap_or(1.0);
         let off = |x: f64| 100.0 * (x / of - 1.0);

@@ -48,12 +48,10 @@ pub fn section(page: &Page<'_>) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "The tables answer three questions on each statement of the paper. "
         strong { "Seen here?" }
         " Yes if the numbers of this sample, on the paper's own grid (grid A, \
          steps of 0.01 g), meet every criterion of the paper; no if they meet \
-         none; in part if they meet some; not testable if a number is \
-         missing. "
+         none; in part if they meet some; not testable without data. "
         strong { "Beyond these records?" }
         " Yes if the 90 % interval of the effect, by resampled earthquakes, \
          excludes no effect in the direction of the statement; the opposite \
@@ -62,8 +60,7 @@ fn legend() -> Markup {
          whether it matters. "
         strong { "How large?" }
         " The estimate and that interval, on grid C (equal dimensionless \
-         steps). If a grid was not run, the other one takes its place. All \
-         suites and grids: "
+         steps). If only one grid was run, it serves for both. All results: "
         a href="#all-results" { "every result" } "."
     }
 }

@@ -94,7 +94,11 @@ fn answers(page: &Page<'_>) -> anyhow::Result<Markup> {
     };
     Ok(html! {
         (scrolled("Questions and answers", table))
-        @if let Some(words) = answers::differing(basis)? { p { (words) } }
+        @if let Some(words) = answers::differing(basis)? {
+            (folded("other-motions", "Answers on other motions", &html! {
+                p { (words) }
+            }))
+        }
         (drawings(&page.placed(Place::Answers)))
     })
 }

@@ -37,7 +37,7 @@ use rocking_draw::figures::of_suite::fragilities_svg;
     "Draw fits, capacities and, with --bootstrap, confidence bands"
 )))]
 pub(super) struct FragilityFitCommand {
-    /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
+    /// Sample file: one value per line, `>3.2` for one censored at 3.2, `inf`
     /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE` if
     /// the earthquake is known; `-` is standard input.
     #[arg(long, value_name = "FILE")]

@@ -193,7 +193,7 @@ impl LawCells {
              to 1.0 times 2π/p, which scale with the block: half of the \
              motions overturn any block at {least:.1} to {most:.1} g tan α, \
              in PGA at {pga_low:.1} to {pga_high:.0} g tan α. The law gives \
-             {low:.1} to {high:.1}, with an error of {:.0} %.",
+             {low:.1} to {high:.1}; the error of its median is {:.0} %.",
             100.0 * error
         );
         let numbers = format!(

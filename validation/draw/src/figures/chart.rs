@@ -175,7 +175,7 @@ impl Layout {
 /// A column of numbers: its name, and what it has of a point.
 pub type Column = (&'static str, Of);
 
-/// What a column has of a point, in the order of [`Panels::csv`].
+/// What a column has of a point, in the order of the CSV.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Of {
     /// Abscissa.

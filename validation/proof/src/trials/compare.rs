@@ -173,7 +173,7 @@ fn by<N: Real>(
 /// Runs a trial in double precision and in wider arithmetic.
 ///
 /// # Errors
-/// [`EngineError`] if the scene is refused.
+/// If the scene is refused.
 ///
 /// ```
 /// use rocking_proof::trials::{

@@ -440,8 +440,8 @@ pub(super) fn summary(
     let (motions, records) = match (basis.embedded, basis.has_recorded()) {
         (true, true) => (
             "recorded motions",
-            "Records: most may not be redistributed; results on them were \
-             computed earlier and are stored here.",
+            "Records: most may not be redistributed; their results were \
+             computed earlier and are stored.",
         ),
         (true, false) => {
             ("synthetic motions", "Records: none; the motions are synthetic.")
@@ -461,7 +461,7 @@ pub(super) fn summary(
              Structural Dynamics) [1]: which properties of a free-standing \
              object (statue, cabinet, column) decide whether it \
              overturns in an earthquake, and which probability distribution \
-             describes that. Our own program computed 15 blocks under \
+             describes that. Our program computed 15 blocks under \
              {motions}, {}: {} analyses.",
                 suites_of(lead).join(" and "),
                 grouped(analyses),

@@ -134,9 +134,8 @@ impl SentenceCounts {
         let Self { shown, opposite, denied, .. } = self;
         format!(
             "Beyond these records, the effect that a statement names is shown \
-             on every suite for {shown}, its opposite for {opposite}, and \
-             neither for the rest; {denied} deny an effect that exists, \
-             however small."
+             on every suite for {shown} and its opposite for {opposite}; \
+             {denied} deny an effect that exists, however small."
         )
     }
 }

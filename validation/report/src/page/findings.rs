@@ -60,7 +60,7 @@ fn legend() -> Markup {
          whether it matters. "
         strong { "How large?" }
         " The estimate and that interval, on grid C (equal dimensionless \
-         steps). If only one grid was run, it serves for both. All results: "
+         steps). If only one grid was run, it serves for both. See "
         a href="#all-results" { "every result" } "."
     }
 }

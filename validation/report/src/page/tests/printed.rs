@@ -297,8 +297,8 @@ fn every_word_and_the_score_follow_from_the_numbers_beside_them() {
         );
         let found = format!(
             "Beyond these records, the effect that a statement names is shown \
-             on every suite for {}, its opposite for {}, and neither for the \
-             rest; {} deny an effect that exists, however small.",
+             on every suite for {} and its opposite for {}; {} deny an effect \
+             that exists, however small.",
             effects(true, &|all| {
                 !all.is_empty() && all.iter().all(|e| *e == "yes")
             }),

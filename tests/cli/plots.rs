@@ -47,7 +47,7 @@ fn an_ida_and_its_stripes_are_drawn_with_all_records() {
     // One path of three curves, each of which begins with a move.
     let moves = curves.map(|path| path.matches('M').count());
     assert_eq!(moves.sum::<usize>(), 3, "{svg}");
-    assert!(svg.contains("of 3 records") && svg.contains("84 % quantile"));
+    assert!(svg.contains(", 3 records") && svg.contains("84 % quantile"));
     answer(&place, &format!("{ida} --plot two.svg --threads 2"));
     assert_eq!(fs::read_to_string(place.join("two.svg")).unwrap(), svg);
     // Every record stands at both; the legend has a dot, too.

@@ -117,6 +117,9 @@ impl Drawing {
             return Ok(());
         }
         let points: Vec<_> = points.into_iter().collect();
+        if points.is_empty() {
+            return Ok(());
+        }
         let exact = points.iter().map(|p| (f64::from(p.0), f64::from(p.1)));
         let keep = kept(&exact.collect::<Vec<_>>(), tolerance);
         let points = points.into_iter().zip(keep).filter(|(_, keep)| *keep);

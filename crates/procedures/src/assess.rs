@@ -2,33 +2,38 @@
 //! often.
 
 mod answers;
+mod error;
+mod facts;
 mod ground;
 mod json;
+mod object;
+mod remedies;
 
 use std::fmt;
 
+use libm::log;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use self::ground::{AssessmentSuite, ObjectResult};
+pub use error::AssessError;
+pub use facts::{ObjectFacts, ObjectRemark, ObjectState, SlidingObject};
+pub use remedies::{Remedy, RemedyKind};
+
 use super::fit::{Band, IntervalBasis};
 use super::risk::FragilityRisk;
-use super::{
-    Draws, FragilityFit, ModelError, ProcedureError, Ranking, StripeResponses,
-};
-use crate::fragility::hazard::Hazard;
+use super::{Draws, FragilityFit, ModelError, Ranking, StripeResponses};
+use crate::fragility::hazard::{Hazard, HazardRemark};
 use crate::fragility::risk::Contribution;
 use crate::fragility::total::TotalFragility;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
-use rocking::capacity::CapacityError;
-use rocking::ida::{Analysis, IdaError, ResolutionCounts};
+use rocking::ida::ResolutionCounts;
 use rocking::names::as_text;
-use rocking_records::floor::{Floor, FloorError};
-use rocking_records::intensity::{IntensityError, IntensityMeasure};
+use rocking_records::floor::Floor;
+use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::{Clusters, Estimate};
 
-/// Coefficients of restitution beside the object's own.
+/// Coefficients of restitution beside the object's own and Housner's.
 const RESTITUTIONS: [f64; 2] = [0.85, 0.97];
 
 /// Minimum number of records of an assessment.
@@ -37,8 +42,14 @@ const LEAST_RECORDS: usize = 3;
 /// A free-standing object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// Its name.
+    /// Its name in files of other programs.
     pub id: String,
+    /// Its name for people.
+    pub label: String,
+    /// Further columns of the inventory with their cells.
+    pub notes: Vec<(String, String)>,
+    /// Its centre in the room in m, if known.
+    pub position_m: Option<(f64, f64)>,
     /// The block that it is taken for.
     pub block: Block,
     /// Coefficient of restitution.
@@ -50,6 +61,23 @@ pub struct Object {
     pub limit_ratio: Option<f64>,
     /// The floor of a building on which it stands; none on the ground.
     pub floor: Option<NamedFloor>,
+}
+
+impl Object {
+    /// An object on the ground of which no more is known than its block.
+    pub fn new(name: &str, block: Block, restitution: Restitution) -> Self {
+        Self {
+            id: name.to_owned(),
+            label: name.to_owned(),
+            notes: Vec::new(),
+            position_m: None,
+            block,
+            restitution,
+            friction: None,
+            limit_ratio: None,
+            floor: None,
+        }
+    }
 }
 
 /// A floor with its name.
@@ -74,12 +102,19 @@ pub struct AssessOptions<'a> {
     pub draws: Draws,
     /// Whether each outcome is resolved in sufficient precision.
     pub certify: bool,
-    /// The model error, in every answer except the alternative without it.
+    /// The model error, in every answer except the alternative without it. It
+    /// leaves out the coefficient of restitution, which is varied here.
     pub model_error: ModelError,
     /// Median intensities of overturning under recorded motions over those
     /// under the records here, of blocks for which both are known; empty if
-    /// none is known.
+    /// none is known. Capacities on the ground are multiplied by their
+    /// median.
     pub recorded_ratios: &'a [f64],
+    /// Return period in years that each object is to reach.
+    pub target_years: Option<f64>,
+    /// Share of the records, in [0, 1), up to which an object that slides
+    /// before its damage is still taken to rock.
+    pub sliding_share: f64,
 }
 
 /// What counts as damage.
@@ -129,6 +164,15 @@ pub struct Assessment {
     pub model_error: ModelError,
     /// Years of the probabilities.
     pub years: f64,
+    /// Remarks on the hazard curve.
+    pub remarks: Vec<HazardRemark>,
+    /// Return period in years of the last point of the hazard curve: longer
+    /// ones are not known.
+    pub longest_years: Option<f64>,
+    /// Return period in years that each object is to reach.
+    pub target_years: Option<f64>,
+    /// Share of the records from which on an object counts as sliding.
+    pub sliding_share: f64,
     /// Correlation of the logarithms of the intensities of damage of two
     /// objects over the records: the least, the median and the largest of all
     /// pairs; none if no pair has three records that damage both.
@@ -136,14 +180,16 @@ pub struct Assessment {
     /// By falling annual frequency of damage, or by rising intensity of 5 %
     /// damage if there is no hazard curve.
     pub objects: Vec<ObjectAssessment>,
+    /// The objects that slide before they rock. They have no rank.
+    pub not_rocking: Vec<SlidingObject>,
     /// Joint damage of at least one, two, .. objects in the same earthquake.
     pub together: Vec<JointDamage>,
-    /// Effect of recorded motions, if their ratios are known and an object on
-    /// the ground overturns.
+    /// Difference of recorded motions, if it is known. It enters the answer of
+    /// each object on the ground.
     pub recorded_motions: Option<RecordedMotions>,
 }
 
-/// Effect of recorded motions on answers computed with other motions.
+/// Difference of recorded motions from the motions of an assessment.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RecordedMotions {
@@ -153,42 +199,88 @@ pub struct RecordedMotions {
     /// under the records here: the least, the median and the largest of the
     /// blocks.
     pub median_ratio: Estimate,
-    /// Mean return period of overturning with these three ratios as a bias of
-    /// the capacity over that without: the least, the median and the largest
-    /// of the objects on the ground; none without a hazard curve.
-    pub return_period_ratio: Option<Estimate>,
 }
 
-/// One object.
+/// Whether the return period of an object reaches the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TargetVerdict {
+    /// The whole interval does.
+    Meets,
+    /// Nothing of the interval does.
+    Misses,
+    /// A part of the interval does.
+    Undecided,
+}
+
+impl fmt::Display for TargetVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Meets => "meets",
+            Self::Misses => "does not meet",
+            Self::Undecided => "undecided",
+        })
+    }
+}
+
+as_text!(write TargetVerdict);
+
+/// A source of an answer's interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IntervalSource {
+    /// The choice of the records.
+    Records,
+    /// The coefficient of restitution.
+    Restitution,
+    /// The error of the model.
+    Model,
+    /// The difference of recorded motions.
+    Motions,
+}
+
+impl fmt::Display for IntervalSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Records => "choice of the records",
+            Self::Restitution => "coefficient of restitution",
+            Self::Model => "error of the model",
+            Self::Motions => "difference of recorded motions",
+        })
+    }
+}
+
+as_text!(write IntervalSource);
+
+/// The answer if only one source is uncertain.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct IntervalPart {
+    /// The source.
+    pub source: IntervalSource,
+    /// Return period in years, or intensity of 5 % damage without a hazard
+    /// curve, at the unfavourable end of the source.
+    pub low: f64,
+    /// The same at its favourable end.
+    pub high: f64,
+}
+
+/// An object that rocks.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ObjectAssessment {
-    /// Its name.
-    pub id: String,
-    /// The block that it is taken for.
-    pub block: Block,
-    /// Name of the floor that it stands on; none on the ground.
-    pub floor: Option<String>,
-    /// Width in m.
-    pub width_m: f64,
-    /// Height in m.
-    pub height_m: f64,
-    /// Slenderness in rad.
-    pub alpha_rad: f64,
-    /// Frequency parameter in rad/s.
-    pub p_rad_s: f64,
-    /// Coefficient of restitution.
-    pub eta: f64,
-    /// What counts as damage.
-    pub damage: Damage,
-    /// Peak acceleration in g, of the ground or of its floor, at which the
-    /// object begins to rock.
-    pub uplift_pga_g: f64,
+    /// What is known without its answer.
+    pub facts: ObjectFacts,
     /// The intensities at which the records damage it, and their lognormal
     /// fit.
     pub fragility: FragilityFit,
-    /// Answer of the fit with the model error.
+    /// Answer of the fit with the uncertainty of restitution, model and
+    /// motions.
     pub answer: Answer,
+    /// The answer's interval by source, those that have a part in it.
+    pub parts: Vec<IntervalPart>,
+    /// Whether the return period reaches the target, if there is one.
+    pub target: Option<TargetVerdict>,
+    /// Measures that would help an object that does not meet the target.
+    pub remedies: Vec<Remedy>,
     /// Probabilities of damage with their band.
     pub band: Option<Band>,
     /// Annual frequency of damage by motions between two intensities of the
@@ -213,6 +305,20 @@ pub struct ObjectAssessment {
 }
 
 impl ObjectAssessment {
+    /// Ranked, or ranked with a remark.
+    pub fn state(&self) -> ObjectState {
+        match self.facts.remarks.is_empty() {
+            true => ObjectState::Ranked,
+            false => ObjectState::Remarked,
+        }
+    }
+
+    /// The source with the largest part in the interval.
+    pub fn largest_part(&self) -> Option<&IntervalPart> {
+        let width = |part: &&IntervalPart| log(part.high / part.low);
+        self.parts.iter().max_by(|a, b| width(a).total_cmp(&width(b)))
+    }
+
     /// The intensity measure with the least dispersion, and its dispersion.
     pub fn best_im(&self) -> Option<(&str, f64)> {
         let measures = self.ranking.measures.iter();
@@ -281,6 +387,8 @@ pub struct RecordCapacity {
 pub enum Assumption {
     /// No model error, only the scatter of the records.
     RecordsAlone,
+    /// Motions as they are, not multiplied by the ratio of recorded ones.
+    Uncorrected,
     /// Another coefficient of restitution.
     Restitution(f64),
     /// A fragility without a shift.
@@ -298,7 +406,11 @@ impl fmt::Display for Assumption {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Restitution(eta) => {
+                let eta = (1e3 * eta).round() / 1e3;
                 write!(f, "coefficient of restitution {eta}")
+            }
+            Self::Uncorrected => {
+                f.write_str("motions as they are, no factor of recorded ones")
             }
             Self::RecordsAlone => {
                 f.write_str("records alone, no error of the model")
@@ -341,88 +453,6 @@ pub struct JointDamage {
     pub answer: Answer,
 }
 
-/// Why objects cannot be assessed.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum AssessError {
-    /// There is nothing to assess.
-    #[error("no object: expected at least one")]
-    NoObject,
-    /// Too few records to estimate the scatter of intensities.
-    #[error(
-        "{0} records: expected at least {LEAST_RECORDS}, to estimate the \
-         scatter of intensities of damage"
-    )]
-    Records(usize),
-    /// A limit of rotation that is not a fraction of the slenderness.
-    #[error("{id}: limit_ratio {found}: expected a number between 0 and 1")]
-    Limit {
-        /// The object.
-        id: String,
-        /// Its limit.
-        found: f64,
-    },
-    /// The measure of the hazard curve cannot be computed from records.
-    #[error(
-        "hazard curve in {0}: expected pga_g, pgv_m_s, pgv_cm_s or a \
-         spectral acceleration"
-    )]
-    Measure(String),
-    /// An analysis was rejected.
-    #[error(transparent)]
-    Analysis(#[from] IdaError),
-    /// The forces at an object's pivot cannot be computed.
-    #[error("{id}: {source}")]
-    Ida {
-        /// The object.
-        id: String,
-        /// Why.
-        source: IdaError,
-    },
-    /// An object's capacities make no fit.
-    #[error("{id}: {source}")]
-    Fit {
-        /// The object.
-        id: String,
-        /// Why.
-        source: ProcedureError,
-    },
-    /// An object's capacities have no fit under another assumption.
-    #[error("{id}, {assumption}: {source}")]
-    Alternative {
-        /// The object.
-        id: String,
-        /// The assumption.
-        assumption: Assumption,
-        /// Why.
-        source: ProcedureError,
-    },
-    /// A record has no measures.
-    #[error("record {record}: {source}")]
-    Record {
-        /// The record.
-        record: String,
-        /// Why.
-        source: IntensityError,
-    },
-    /// The motion of a floor under a record cannot be computed.
-    #[error("record {record}, floor {floor}: {source}")]
-    Floor {
-        /// The record.
-        record: String,
-        /// The floor.
-        floor: String,
-        /// Why.
-        source: FloorError,
-    },
-    /// A curve has no capacities.
-    #[error(transparent)]
-    Capacity(#[from] CapacityError),
-    /// A coefficient is out of range.
-    #[error(transparent)]
-    Block(#[from] BlockError),
-}
-
 /// Assesses objects under the records of one suite, whose earthquakes are
 /// `clusters`.
 ///
@@ -432,10 +462,16 @@ pub enum AssessError {
 /// fitted by a lognormal distribution: in PGA above the intensity g tan(alpha)
 /// at which the object begins to rock, in other measures, and on a floor, from
 /// 0. On a [floor](Floor) the object rocks under the floor's motion;
-/// intensities stay those of the ground. Each fit gets the error of the model.
-/// Intervals are of the bootstrap, which draws earthquakes, and for each draw
-/// and object an error of the model. The objects damaged together are counted
-/// record by record, since one earthquake shakes all of them.
+/// intensities stay those of the ground. Intervals are of the bootstrap, which
+/// draws earthquakes, and for each draw and object an error of the model and a
+/// factor of the capacity. The factor lies in the range that coefficients of
+/// restitution of 0.85, 0.97 and Housner's give; on the ground it includes the
+/// ratio of recorded motions. The objects damaged together are counted record
+/// by record, since one earthquake shakes all of them.
+///
+/// An object that slides before its damage under more than the given share of
+/// the records has no answer. Each object that does not meet the target gets
+/// [remedies](Remedy).
 ///
 /// ```
 /// use rocking_procedures::assess::{AssessOptions, Object, assess};
@@ -449,22 +485,19 @@ pub enum AssessError {
 ///     Accelerogram::try_new(name, 0.01, rise.collect()).unwrap()
 /// };
 /// let records = [lobe("a", 25), lobe("b", 30), lobe("c", 40)];
-/// let cabinet = Object {
-///     id: "cabinet".into(),
-///     block: Block::from_dimensions(0.5, 1.8, 9.81)?,
-///     restitution: Restitution::constant(0.92)?,
-///     friction: None,
-///     limit_ratio: None,
-///     floor: None,
-/// };
+/// let block = Block::from_dimensions(0.5, 1.8, 9.81)?;
+/// let eta = Restitution::constant(0.92)?;
+/// let cabinet = Object::new("cabinet", block, eta);
 /// let options = AssessOptions {
 ///     gravity_m_s2: 9.81,
 ///     hazard: None,
 ///     years: 50.0,
 ///     draws: Draws { replicates: 100, seed: 0 },
 ///     certify: true,
-///     model_error: ModelError::default(),
+///     model_error: ModelError::fitted(),
 ///     recorded_ratios: &[],
+///     target_years: None,
+///     sliding_share: 0.05,
 /// };
 /// let clusters = Clusters::singletons(3);
 /// let found = assess(&[cabinet], &records, &clusters, &options)?;
@@ -475,8 +508,9 @@ pub enum AssessError {
 ///
 /// # Errors
 /// [`AssessError`] for no object, fewer than three records, a limit outside
-/// (0, 1), a hazard curve in another unit, and an object without a fit, such
-/// as one that fewer than two records damage.
+/// (0, 1), a target beyond the hazard curve, a hazard curve in another unit,
+/// and an object without a fit, such as one that fewer than two records
+/// damage.
 pub fn assess(
     objects: &[Object],
     records: &[Accelerogram],
@@ -486,40 +520,50 @@ pub fn assess(
     if objects.is_empty() {
         return Err(AssessError::NoObject);
     }
-    let ground = AssessmentSuite::new(objects, records, clusters, options)?;
-    let mut analyses = Vec::new();
-    for object in objects {
-        if let Some(found) = object.limit_ratio
-            && !(found > 0.0 && found < 1.0)
-        {
-            return Err(AssessError::Limit { id: object.id.clone(), found });
+    let longest = options.hazard.map(|h| h.curve.ends().1.1.recip());
+    match (options.target_years, longest) {
+        (Some(_), None) => return Err(AssessError::TargetAlone),
+        (Some(found), Some(longest)) if !(found > 0.0 && found <= longest) => {
+            return Err(AssessError::Target { found, longest });
         }
-        let resurrections = ground.resurrections(object);
-        let own = ground.analysis(object, object.restitution);
-        let mut own = vec![Analysis { resurrections, ..own }];
-        for eta in RESTITUTIONS {
-            let other = Restitution::constant(eta)?;
-            own.push(ground.analysis(object, other));
-        }
-        analyses.push(own);
+        _ => {}
     }
-    let made = ground.curves(objects, &analyses)?;
-    let each = objects.par_iter().zip(&analyses).zip(&made).panic_fuse();
+    if !(0.0..1.0).contains(&options.sliding_share) {
+        return Err(AssessError::SlidingShare(options.sliding_share));
+    }
+    let limits = objects.iter().filter_map(|o| Some((o, o.limit_ratio?)));
+    for (Object { id, .. }, found) in limits {
+        if !(found > 0.0 && found < 1.0) {
+            return Err(AssessError::Limit { id: id.clone(), found });
+        }
+    }
+    let ground = AssessmentSuite::new(objects, records, clusters, options)?;
+    let (rocking, not_rocking) = ground.parted(objects)?;
+    let analyses = rocking.iter().map(|one| ground.others(&one.facts));
+    let analyses = analyses.collect::<Result<Vec<_>, BlockError>>()?;
+    let those: Vec<&Object> =
+        rocking.iter().map(|one| &one.facts.object).collect();
+    let made = ground.curves(&those, &analyses)?;
+    let each = rocking.into_par_iter().zip(&analyses).zip(&made).panic_fuse();
     let found = each
         .map(|((one, analyses), made)| ground.object(one, analyses, made))
         .collect::<Result<Vec<_>, AssessError>>()?;
-    let together = ground.together(&found)?;
     Ok(Assessment {
-        recorded_motions: ground.recorded(&found),
         unit: options.hazard.map_or(ground.im.unit(), Hazard::unit),
         units_per_im_unit: ground.unit,
-        im: ground.im,
+        recorded_motions: ground.recorded,
         records: records.len(),
         basis: IntervalBasis::new(options.draws, clusters),
         model_error: options.model_error,
         years: options.years,
+        remarks: options.hazard.map_or(Vec::new(), |h| h.remarks.clone()),
+        longest_years: longest,
+        target_years: options.target_years,
+        sliding_share: options.sliding_share,
         correlation: ground::correlation(&found),
+        together: ground.together(&found)?,
         objects: ObjectResult::sorted(found),
-        together,
+        not_rocking,
+        im: ground.im,
     })
 }

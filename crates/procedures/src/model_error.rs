@@ -202,8 +202,19 @@ impl BootstrapFits {
     /// ranges from the stream of `name`: their intervals then include the
     /// uncertainty of records and model. A dispersion drawn below 0.01 counts
     /// as 0.
-    pub fn with(mut self, error: &ModelError, name: &str) -> Self {
-        if error.is_none() {
+    pub fn with(self, error: &ModelError, name: &str) -> Self {
+        self.with_factors(error, &[], name)
+    }
+
+    /// As [`Self::with`], each bias times further `factors` of the capacity,
+    /// drawn as a bias is.
+    pub(crate) fn with_factors(
+        mut self,
+        error: &ModelError,
+        factors: &[Estimate],
+        name: &str,
+    ) -> Self {
+        if error.is_none() && factors.is_empty() {
             return self;
         }
         let name = format!("model error/{name}");
@@ -211,7 +222,10 @@ impl BootstrapFits {
         for (fitted, index) in self.fitted.iter_mut().zip(0..) {
             let mut stream = streams.stream(index);
             let [u, v] = [stream.uniform(), stream.uniform()];
-            let bias = drawn(&error.bias, u, Range::NotNegative);
+            let mut bias = drawn(&error.bias, u, Range::NotNegative);
+            for factor in factors {
+                bias *= drawn(factor, stream.uniform(), Range::NotNegative);
+            }
             let s = drawn(&error.dispersion, v, Range::Real);
             let s = if s < MODEL_DISPERSION.0 { 0.0 } else { s };
             *fitted = fitted.and_then(|own| {

@@ -131,27 +131,29 @@ impl PivotForces {
     }
 }
 
-/// Whether a record needs more friction than `friction` at one of the levels
-/// of its curve below the intensity `below_im`. The strongest motion is
-/// analysed first; the search ends at the first level that needs more.
+/// Of the levels of a curve below an intensity, every this many is analysed,
+/// beginning with the strongest.
+const EVERY: usize = 3;
+
+/// The largest friction |H|/N that a record needs at the levels of its curve
+/// below the intensity `below_im`: at the strongest one, and at every third
+/// one below it. Infinite if N is not positive.
 ///
 /// # Errors
 /// As [`forces_at`].
-pub(super) fn needs_more(
+pub(super) fn largest_friction(
     record: &NormalisedRecord,
     curve: &IdaCurve,
     analysis: &Analysis,
-    friction: f64,
     below_im: f64,
-) -> Result<bool, IdaError> {
+) -> Result<f64, IdaError> {
     let levels = curve.points.iter().rev().map(|point| point.im);
-    for im in levels.filter(|im| *im < below_im) {
-        let found = forces_at(record, analysis, im)?;
-        if !(found.friction <= friction) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
+    let levels = levels.filter(|im| *im < below_im).step_by(EVERY);
+    levels
+        .map(|im| Ok(forces_at(record, analysis, im)?.friction))
+        .try_fold(0.0, |most: f64, found: Result<f64, IdaError>| {
+            Ok(most.max(found?))
+        })
 }
 
 #[cfg(test)]

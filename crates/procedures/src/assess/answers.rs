@@ -1,16 +1,18 @@
 //! Answers from intensities of damage: fits, intervals and risk.
 
-use super::ground::{AssessmentSuite, LAST, ObjectResult, range};
-use super::{Answer, Damage, RecordedMotions};
-use crate::fit::Band;
+use super::ground::{AssessmentSuite, LAST, range};
+use super::{Answer, IntervalPart, IntervalSource, Object, TargetVerdict};
+use crate::fit::{Band, BootstrapFits};
 use crate::fragility::hazard::Hazard;
 use crate::fragility::total::TotalFragility;
 use crate::{
     FitOptions, FragilityFit, FragilityInput, ModelError, ProcedureError,
     Shift, fit_sample, risk,
 };
-use rocking_statistics::lognormal::FitError;
-use rocking_statistics::{CensoredSample, Clusters, Estimate, Lognormal};
+use rocking_statistics::lognormal::{FitError, LognormalError};
+use rocking_statistics::{
+    CensoredSample, Clusters, Estimate, Lognormal, Range,
+};
 
 /// Small probability of damage whose intensity is reported.
 const SMALL: f64 = 0.05;
@@ -18,7 +20,166 @@ const SMALL: f64 = 0.05;
 /// Intensities at which a fragility is drawn.
 const POINTS: usize = 40;
 
+/// What an answer leaves open beside the scatter of the records: the error of
+/// the model, and factors of the capacity.
+#[derive(Clone, Copy)]
+pub(super) struct Unknowns {
+    pub(super) error: ModelError,
+    pub(super) restitution: Estimate,
+    pub(super) motions: Estimate,
+}
+
+impl Unknowns {
+    pub(super) fn none() -> Self {
+        let known = Estimate::exact(1.0);
+        let error = ModelError::none();
+        Self { error, restitution: known, motions: known }
+    }
+
+    pub(super) fn is_none(&self) -> bool {
+        self.error.is_none() && self.factors().is_empty()
+    }
+
+    /// Those of several objects together: the widest range of each factor.
+    pub(super) fn widest<'a>(
+        all: impl Iterator<Item = &'a Self> + Clone,
+        error: ModelError,
+    ) -> Self {
+        let of = |factor: fn(&Self) -> Estimate| {
+            let ends = all.clone().filter_map(|own| factor(own).interval());
+            let ends = ends.flat_map(|own| [own.low(), own.high()]);
+            let values = all.clone().map(|own| factor(own).value());
+            around(values.fold(f64::INFINITY, f64::min).min(1.0), ends)
+        };
+        let [restitution, motions] =
+            [of(|own| own.restitution), of(|own| own.motions)];
+        Self { error, restitution, motions }
+    }
+
+    fn factors(&self) -> Vec<Estimate> {
+        let all = [self.restitution, self.motions].into_iter();
+        let known = |own: &Estimate| *own == Estimate::exact(1.0);
+        all.filter(|own| !known(own)).collect()
+    }
+
+    fn bias(&self) -> f64 {
+        let factors = self.restitution.value() * self.motions.value();
+        self.error.bias().value() * factors
+    }
+
+    pub(super) fn total(
+        &self,
+        own: Lognormal,
+    ) -> Result<TotalFragility, LognormalError> {
+        let dispersion = self.error.dispersion().value();
+        TotalFragility::try_new(own, self.bias(), dispersion)
+    }
+}
+
 impl AssessmentSuite<'_> {
+    /// What is unknown of an object: `factors` are those of other coefficients
+    /// of restitution.
+    pub(super) fn unknowns(
+        &self,
+        object: &Object,
+        factors: impl Iterator<Item = f64>,
+    ) -> Unknowns {
+        let recorded = self.recorded.filter(|_| object.floor.is_none());
+        let known = Estimate::exact(1.0);
+        Unknowns {
+            error: self.options.model_error,
+            restitution: around(1.0, factors),
+            motions: recorded.map_or(known, |own| own.median_ratio),
+        }
+    }
+
+    /// The answer's interval by source: the headline's number if only this
+    /// source is uncertain.
+    pub(super) fn parts(
+        &self,
+        total: &TotalFragility,
+        alone: &Answer,
+        unknowns: &Unknowns,
+    ) -> Vec<IntervalPart> {
+        let value = self.headline(total);
+        let at = |(factor, dispersion): (f64, f64)| {
+            let bias = total.bias() * factor;
+            let other =
+                TotalFragility::try_new(*total.records(), bias, dispersion);
+            other.map_or(value, |other| self.headline(&other))
+        };
+        let s = total.model_dispersion();
+        let scaled = |own: &Estimate| {
+            let (low, high) = own.interval()?.ends();
+            let ends = [low, high].map(|end| end / own.value());
+            Some(ends.map(|factor| at((factor, s))))
+        };
+        let records = || {
+            let own = match self.options.hazard {
+                Some(_) => alone.return_period_years()?,
+                None => alone.small_im,
+            };
+            let (low, high) = own.interval()?.ends();
+            Some([low, high].map(|end| value * end / own.value()))
+        };
+        let model = || {
+            let bias = unknowns.error.bias();
+            let ratio =
+                |end: Option<f64>| end.map_or(1.0, |end| end / bias.value());
+            let dispersion = unknowns.error.dispersion();
+            let (least, most) = (
+                dispersion.low().unwrap_or(s),
+                dispersion.high().unwrap_or(s),
+            );
+            Some([
+                at((ratio(bias.low()), most)),
+                at((ratio(bias.high()), least)),
+            ])
+        };
+        let all = [
+            (IntervalSource::Records, records()),
+            (IntervalSource::Restitution, scaled(&unknowns.restitution)),
+            (IntervalSource::Model, model()),
+            (IntervalSource::Motions, scaled(&unknowns.motions)),
+        ];
+        let part = |(source, ends): (IntervalSource, Option<[f64; 2]>)| {
+            let [low, high] = ends?;
+            (low < high).then_some(IntervalPart { source, low, high })
+        };
+        all.into_iter().filter_map(part).collect()
+    }
+
+    /// The number that the headline shows: return period in years, or the
+    /// intensity of 5 % damage.
+    fn headline(&self, total: &TotalFragility) -> f64 {
+        match self.options.hazard {
+            Some(_) => self.years(total),
+            None => total.quantile(SMALL),
+        }
+    }
+
+    /// Return period of damage in years; infinite without a hazard curve.
+    pub(super) fn years(&self, total: &TotalFragility) -> f64 {
+        self.options.hazard.map_or(f64::INFINITY, |h| {
+            h.curve.annual_frequency(*total).truncation_lower.recip()
+        })
+    }
+
+    /// Whether an answer reaches the target.
+    pub(super) fn verdict(&self, answer: &Answer) -> Option<TargetVerdict> {
+        let target = self.options.target_years?;
+        let years = answer.return_period_years()?;
+        let own = years.value();
+        let (low, high) = years.interval().map_or((own, own), |i| i.ends());
+        Some(if low >= target {
+            TargetVerdict::Meets
+        } else if high < target {
+            TargetVerdict::Misses
+        } else {
+            TargetVerdict::Undecided
+        })
+    }
+
     /// The fit to intensities of damage, without an interval.
     pub(super) fn fit(
         &self,
@@ -37,22 +198,23 @@ impl AssessmentSuite<'_> {
     /// with the error of the model.
     pub(super) fn point(
         &self,
-        fitted: Lognormal,
+        records: Lognormal,
+        unknowns: &Unknowns,
     ) -> Result<Answer, ProcedureError> {
-        let error = &self.options.model_error;
-        let own = FragilityInput::with(String::new(), (fitted, None), error);
-        Ok(self.answer(&own.map_err(FitError::from)?))
+        let fitted = unknowns.total(records).map_err(FitError::from)?;
+        let fragility = String::new();
+        Ok(self.answer(&FragilityInput { fragility, fitted, sampled: None }))
     }
 
-    /// The intensities of damage of an object, or of several, drawn with the
-    /// error of the model.
+    /// The intensities of damage of an object, or of several, drawn with what
+    /// is unknown beside the records.
     pub(super) fn drawn(
         &self,
         name: &str,
         values: &[(f64, f64)],
         shift: f64,
         clusters: &Clusters,
-        error: &ModelError,
+        unknowns: &Unknowns,
     ) -> Result<FragilityInput, ProcedureError> {
         let sample = CensoredSample::from_intervals(values)?;
         let options = FitOptions {
@@ -63,9 +225,13 @@ impl AssessmentSuite<'_> {
         };
         let sampled = options.sampled(&sample)?;
         let fitted = sample.fit(shift, options.method)?.distribution;
-        let own = (fitted, sampled);
-        let own = FragilityInput::with(name.to_owned(), own, error);
-        Ok(own.map_err(FitError::from)?)
+        let fitted = unknowns.total(fitted).map_err(FitError::from)?;
+        let Unknowns { error, .. } = unknowns;
+        let factors = unknowns.factors();
+        let with =
+            |all: BootstrapFits| all.with_factors(error, &factors, name);
+        let sampled = sampled.map(with);
+        Ok(FragilityInput { fragility: name.to_owned(), fitted, sampled })
     }
 
     /// The sorting key of objects in each draw.
@@ -123,29 +289,15 @@ impl AssessmentSuite<'_> {
             None => law.quantile(SMALL),
         }
     }
+}
 
-    /// Effect of recorded motions on the objects on the ground.
-    pub(super) fn recorded(
-        &self,
-        found: &[ObjectResult],
-    ) -> Option<RecordedMotions> {
-        let median_ratio = range(self.options.recorded_ratios.to_vec())?;
-        let (low, high) = median_ratio.ends();
-        let mut ratios = Vec::new();
-        for one in found.iter().map(|one| &one.assessed) {
-            if one.damage == Damage::Overturning && one.floor.is_none() {
-                for bias in [low, median_ratio.value(), high] {
-                    let other = one.answer.fitted.scaled(bias).ok()?;
-                    let key = self.key(&one.answer.fitted);
-                    ratios.push(key / self.key(&other));
-                }
-            }
-        }
-        let periods = range(ratios)?;
-        Some(RecordedMotions {
-            blocks: self.options.recorded_ratios.len(),
-            median_ratio,
-            return_period_ratio: self.options.hazard.and(Some(periods)),
-        })
-    }
+/// A value with the range that it and further numbers have.
+fn around(value: f64, others: impl Iterator<Item = f64>) -> Estimate {
+    let all = others.chain([value]).filter(|x| x.is_finite()).collect();
+    let ends = range(all).and_then(|own| own.interval());
+    let own = ends.filter(|own| own.low() < own.high());
+    let own = own.and_then(|own| {
+        Estimate::try_new(value, own, Range::NotNegative).ok()
+    });
+    own.unwrap_or(Estimate::exact(value))
 }

@@ -3,35 +3,26 @@
 use rayon::prelude::*;
 use statrs::statistics::Statistics as _;
 
+use super::answers::Unknowns;
 use super::{
-    Alternative, Answer, AssessError, AssessOptions, Assumption, Damage,
-    JointDamage, LEAST_RECORDS, NamedFloor, Object, ObjectAssessment,
-    RecordCapacity,
+    AssessError, AssessOptions, JointDamage, LEAST_RECORDS, NamedFloor,
+    Object, ObjectAssessment, ObjectFacts, RESTITUTIONS, RecordedMotions,
+    SlidingObject,
 };
+use crate::capacities;
 use crate::fragility::hazard::{Hazard, HazardMeasure};
-use crate::pivot::needs_more;
-use crate::ranking::CandidateMeasure;
-use crate::{
-    ModelError, ProcedureError, Ranking, StripeResponses, capacities,
-    law_fragility, rank,
-};
-use libm::{hypot, log};
+use crate::pivot::largest_friction;
 use rocking::accelerogram::Accelerogram;
-use rocking::block::Restitution;
+use rocking::block::{BlockError, Restitution};
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Analysis, Batch, BracketEnd, IdaCurve, IdaError, REFINEMENT,
-    ResolutionCounts, Resurrections, curves,
+    Analysis, Batch, BracketEnd, Grid, IdaCurve, IdaError, REFINEMENT,
+    Resurrections, curves,
 };
-use rocking::integrator::uplift_threshold;
 use rocking_records::floor::Floor;
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
-use rocking_statistics::lognormal::{Stripe, fit_counts_alone};
-use rocking_statistics::{Clusters, Estimate, Interval, Lognormal, Range};
-
-/// Intensities at which a curve is drawn.
-const POINTS: usize = 40;
+use rocking_statistics::{Clusters, Estimate, Interval, Range};
 
 /// Probability of damage up to which curves go.
 pub(super) const LAST: f64 = 0.98;
@@ -40,42 +31,49 @@ pub(super) const LAST: f64 = 0.98;
 /// intensity.
 const REACH: f64 = 2.0;
 
-/// Spacing of the levels in g.
-const STEP_G: f64 = 0.01;
+/// Periods in s of a hazard curve in AvgSA, which does not state its own.
+const AVERAGE_S: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 3.0];
+
+/// Spacing in g of the levels of searches and of resurrections.
+pub(super) const COARSE: Grid = Grid::Pga { step_g: COARSE_G };
+pub(super) const COARSE_G: f64 = 0.03;
 
 /// The motions of the ground, or of one floor, under all records.
-struct ObjectMotion {
+pub(super) struct ObjectMotion {
     floor: Option<Floor>,
-    normalised: Vec<NormalisedRecord>,
+    pub(super) normalised: Vec<NormalisedRecord>,
     pga_g: Vec<f64>,
 }
 
 impl ObjectMotion {
-    fn new(
+    /// The motions of the last of the `floors`, each of which stands on the
+    /// one before.
+    pub(super) fn new(
         records: &[Accelerogram],
-        floor: Option<&NamedFloor>,
+        floors: &[&NamedFloor],
     ) -> Result<Self, AssessError> {
         let moved = records.par_iter().panic_fuse().map(|record| {
-            let Some(on) = floor else {
-                return Ok((NormalisedRecord::new(record), record.pga_g()));
-            };
-            let refused = |source| AssessError::Floor {
-                record: record.name().to_owned(),
-                floor: on.name.clone(),
-                source,
-            };
-            let motion = on.floor.motion(record).map_err(refused)?;
+            let mut motion = record.clone();
+            for on in floors {
+                let refused = |source| AssessError::Floor {
+                    record: record.name().to_owned(),
+                    floor: on.name.clone(),
+                    source,
+                };
+                motion = on.floor.motion(&motion).map_err(refused)?;
+            }
             Ok((NormalisedRecord::new(&motion), motion.pga_g()))
         });
         let moved = moved.collect::<Result<Vec<_>, AssessError>>()?;
         let (normalised, pga_g) = moved.into_iter().unzip();
-        Ok(Self { floor: floor.map(|on| on.floor), normalised, pga_g })
+        let floor = floors.last().map(|on| on.floor);
+        Ok(Self { floor, normalised, pga_g })
     }
 }
 
 /// The records of one assessment, measured.
 pub(super) struct AssessmentSuite<'a> {
-    names: Vec<&'a str>,
+    pub(super) records: &'a [Accelerogram],
     moved: Vec<ObjectMotion>,
     measures: Vec<Measures>,
     settings: Settings,
@@ -84,18 +82,29 @@ pub(super) struct AssessmentSuite<'a> {
     /// Units of the hazard curve in one of the measure.
     pub(super) unit: f64,
     pub(super) options: AssessOptions<'a>,
+    pub(super) recorded: Option<RecordedMotions>,
+}
+
+/// An object that rocks, with its analyses.
+pub(super) struct RockingObject {
+    pub(super) facts: ObjectFacts,
+    pub(super) analysis: Analysis,
+    pub(super) curves: Vec<IdaCurve>,
+    pub(super) slides_first: Option<f64>,
 }
 
 /// Results of one object, with the numbers that compare it with the others.
 pub(super) struct ObjectResult {
     pub(super) assessed: ObjectAssessment,
+    /// What its answer leaves open beside the records.
+    pub(super) unknowns: Unknowns,
     /// Its intensities of damage by record: (value, value), or (limit,
     /// infinity).
     pub(super) intervals: Vec<(f64, f64)>,
     /// What objects are sorted by.
     pub(super) key: f64,
     /// What objects are sorted by, of each draw.
-    keys: Vec<f64>,
+    pub(super) keys: Vec<f64>,
 }
 
 impl Object {
@@ -145,6 +154,9 @@ impl<'a> AssessmentSuite<'a> {
             }) if !matches!(im, IntensityMeasure::Column(_)) => {
                 (im.clone(), *units_per_im_unit)
             }
+            Some(Hazard { im: HazardMeasure::AverageSa, .. }) => {
+                (IntensityMeasure::AverageSa(AVERAGE_S.to_vec()), 1.0)
+            }
             Some(hazard) => return Err(AssessError::Measure(hazard.name())),
         };
         let of_object = |object: &Object| {
@@ -167,12 +179,17 @@ impl<'a> AssessmentSuite<'a> {
         let mut moved: Vec<ObjectMotion> = Vec::new();
         for object in objects {
             if moved.iter().all(|moved| moved.floor != object.ground()) {
-                moved.push(ObjectMotion::new(records, object.floor.as_ref())?);
+                let floors: Vec<_> = object.floor.iter().collect();
+                moved.push(ObjectMotion::new(records, &floors)?);
             }
         }
+        let recorded = range(options.recorded_ratios.to_vec());
+        let blocks = options.recorded_ratios.len();
         Ok(Self {
-            names: records.iter().map(Accelerogram::name).collect(),
+            records,
             moved,
+            recorded: recorded
+                .map(|median_ratio| RecordedMotions { blocks, median_ratio }),
             measures: measures.collect::<Result<_, _>>()?,
             settings,
             clusters,
@@ -194,8 +211,87 @@ impl<'a> AssessmentSuite<'a> {
         }
     }
 
+    /// The objects that rock, and those that slide first.
+    pub(super) fn parted(
+        &self,
+        objects: &[Object],
+    ) -> Result<(Vec<RockingObject>, Vec<SlidingObject>), AssessError> {
+        let analyses = objects.iter();
+        let analyses = analyses.map(|o| vec![self.analysis(o, o.restitution)]);
+        let analyses: Vec<Vec<Analysis>> = analyses.collect();
+        let all: Vec<&Object> = objects.iter().collect();
+        let made = self.curves(&all, &analyses)?;
+        let (mut rocking, mut sliding) = (Vec::new(), Vec::new());
+        for ((object, analyses), made) in all.iter().zip(analyses).zip(made) {
+            let gravity = self.options.gravity_m_s2;
+            let facts = ObjectFacts::of(object, objects, gravity)?;
+            let curves = made.into_iter().flatten().collect();
+            let analysis = analyses[0];
+            let mut one =
+                RockingObject { facts, analysis, curves, slides_first: None };
+            let Some(friction) = object.friction else {
+                rocking.push(one);
+                continue;
+            };
+            let mut needed = self.frictions(&one)?;
+            needed.sort_by(|a, b| b.total_cmp(a));
+            let more = needed.iter().filter(|need| !(**need <= friction));
+            let share = more.count() as f64 / needed.len() as f64;
+            let permitted = self.options.sliding_share;
+            if share <= permitted {
+                one.slides_first = Some(share);
+                rocking.push(one);
+            } else {
+                let most = (permitted * needed.len() as f64) as usize;
+                let needed_friction = needed[most];
+                let facts = one.facts;
+                sliding.push(SlidingObject { facts, share, needed_friction });
+            }
+        }
+        Ok((rocking, sliding))
+    }
+
+    /// The friction that each record needs before it damages an object.
+    fn frictions(&self, one: &RockingObject) -> Result<Vec<f64>, AssessError> {
+        let object = &one.facts.object;
+        let refused = |source: IdaError| AssessError::Ida {
+            id: object.id.clone(),
+            source,
+        };
+        let onset = self.onset(&one.facts, &one.curves)?;
+        let moved = self.under(object).normalised.par_iter();
+        let each = moved.zip(&one.curves).zip(&onset);
+        let each = each.map(|((record, curve), (low, high))| {
+            let below = if high.is_finite() { *low } else { f64::INFINITY };
+            largest_friction(record, curve, &one.analysis, below)
+        });
+        each.panic_fuse().collect::<Result<_, _>>().map_err(refused)
+    }
+
+    /// The analyses of an object under other assumptions: coefficients of
+    /// restitution, and all levels up to [`REACH`].
+    pub(super) fn others(
+        &self,
+        facts: &ObjectFacts,
+    ) -> Result<Vec<Analysis>, BlockError> {
+        let object = &facts.object;
+        let mut etas = Vec::new();
+        for eta in RESTITUTIONS {
+            etas.push(Restitution::constant(eta)?);
+        }
+        etas.extend(Restitution::housner(&object.block));
+        let of = |eta| self.analysis(object, eta);
+        let mut all: Vec<Analysis> = etas.into_iter().map(of).collect();
+        if self.resurrects(object) {
+            let resurrections = Some(Resurrections::Multiple(REACH));
+            let own = of(object.restitution);
+            all.push(Analysis { grid: COARSE, resurrections, ..own });
+        }
+        Ok(all)
+    }
+
     /// The motions of the ground or floor under an object.
-    fn under(&self, object: &Object) -> &ObjectMotion {
+    pub(super) fn under(&self, object: &Object) -> &ObjectMotion {
         let mut moved = self.moved.iter();
         let own = moved.find(|moved| moved.floor == object.ground());
         own.unwrap_or(&self.moved[0])
@@ -204,7 +300,7 @@ impl<'a> AssessmentSuite<'a> {
     /// The curves of all analyses, object by object.
     pub(super) fn curves(
         &self,
-        objects: &[Object],
+        objects: &[&Object],
         analyses: &[Vec<Analysis>],
     ) -> Result<Vec<Vec<Vec<IdaCurve>>>, AssessError> {
         let mut made = vec![Vec::new(); objects.len()];
@@ -224,7 +320,7 @@ impl<'a> AssessmentSuite<'a> {
 
     /// The measure of each ground motion, scaled so that the PGA under the
     /// object is 1 g.
-    fn per_pga(
+    pub(super) fn per_pga(
         &self,
         moved: &ObjectMotion,
         im: &IntensityMeasure,
@@ -237,246 +333,55 @@ impl<'a> AssessmentSuite<'a> {
         self.measures.iter().zip(&moved.pga_g).map(of).collect()
     }
 
-    /// Results of one object under the records.
-    pub(super) fn object(
+    /// Dimensionless intensities of damage by record.
+    pub(super) fn onset(
         &self,
-        object: &Object,
-        analyses: &[Analysis],
-        made: &[Vec<IdaCurve>],
-    ) -> Result<ObjectResult, AssessError> {
-        let id = &object.id;
-        let refused = |source: ProcedureError| {
-            let id = id.clone();
-            AssessError::Fit { id, source }
-        };
-        let damage =
-            object.limit_ratio.map_or(Damage::Overturning, Damage::Rotation);
-        let threshold = uplift_threshold(&object.block, analyses[0].model);
-        let moved = self.under(object);
+        facts: &ObjectFacts,
+        curves: &[IdaCurve],
+    ) -> Result<Vec<(f64, f64)>, AssessError> {
+        let edp = facts.damage.edp();
+        let own = response(curves)?;
+        let all = capacities::intervals(&own, edp, InversionRule::Median);
+        all.map_err(|source| facts.refused(source))
+    }
+
+    /// Intensities of damage by record, in the unit of the hazard curve.
+    pub(super) fn intervals(
+        &self,
+        facts: &ObjectFacts,
+        moved: &ObjectMotion,
+        curves: &[IdaCurve],
+    ) -> Result<Vec<(f64, f64)>, AssessError> {
         let per_pga = self.per_pga(moved, &self.im);
-        let onset = |curves: &[IdaCurve]| {
-            let own = response(curves)?;
-            let edp = damage.edp();
-            let all = capacities::intervals(&own, edp, InversionRule::Median);
-            all.map_err(refused)
+        let scale = |((low, high), per): (&(f64, f64), &f64)| {
+            let scale = |im: f64| self.scaled(im * facts.uplift_pga_g, *per);
+            (scale(*low), scale(*high))
         };
-        let scaled = |onset: &[(f64, f64)]| -> Vec<(f64, f64)> {
-            let scale = |((low, high), per): (&(f64, f64), &f64)| {
-                let scale = |im: f64| self.scaled(im * threshold, *per);
-                (scale(*low), scale(*high))
-            };
-            onset.iter().zip(&per_pga).map(scale).collect()
-        };
-        let own_onset = onset(&made[0])?;
-        let intervals = scaled(&own_onset);
-        let shift = match self.im {
-            IntensityMeasure::PGA if object.floor.is_none() => threshold,
+        let onset = self.onset(facts, curves)?;
+        Ok(onset.iter().zip(&per_pga).map(scale).collect())
+    }
+
+    /// Intensities at which each record lifts an object, in the unit of the
+    /// hazard curve.
+    pub(super) fn uplifts(&self, facts: &ObjectFacts) -> Vec<f64> {
+        let per_pga = self.per_pga(self.under(&facts.object), &self.im);
+        let scale = |per: f64| self.scaled(facts.uplift_pga_g, per);
+        per_pga.into_iter().map(scale).collect()
+    }
+
+    /// The shift of a fragility.
+    pub(super) fn shift(&self, facts: &ObjectFacts) -> f64 {
+        match self.im {
+            IntensityMeasure::PGA if facts.object.floor.is_none() => {
+                facts.uplift_pga_g
+            }
             _ => 0.0,
-        };
-        let error = &self.options.model_error;
-        let drawn = |clusters: &Clusters, error: &ModelError| {
-            self.drawn(id, &intervals, shift, clusters, error)
-        };
-        let own = drawn(self.clusters, error).map_err(refused)?;
-        let answer = self.answer(&own);
-        let (key, keys) = (self.key(&own.fitted), self.keys(&own, &answer));
-        let mut alternatives = Vec::new();
-        let mut beside = |assumption, answer: Result<Answer, _>| {
-            let answer = answer.map_err(|source| {
-                AssessError::Alternative { id: id.clone(), assumption, source }
-            })?;
-            alternatives.push(Alternative { assumption, answer });
-            Ok::<_, AssessError>(())
-        };
-        if !error.is_none() {
-            let alone = drawn(self.clusters, &ModelError::none());
-            let alone = alone.map(|own| self.answer(&own));
-            beside(Assumption::RecordsAlone, alone)?;
         }
-        let fit = |values: &[(f64, f64)], shift| {
-            self.point(self.fit(values, shift)?.fitted)
-        };
-        for (curves, analysis) in made.iter().zip(analyses).skip(1) {
-            let eta = analysis.restitution.velocity_ratio();
-            let answer = fit(&scaled(&onset(curves)?), shift);
-            beside(Assumption::Restitution(eta), answer)?;
-        }
-        if shift > 0.0 {
-            beside(Assumption::NoShift, fit(&intervals, 0.0))?;
-        }
-        if !self.clusters.is_singletons() {
-            let single = Clusters::singletons(self.names.len());
-            let answer = drawn(&single, error).map(|own| self.answer(&own));
-            beside(Assumption::RecordsAsUnit, answer)?;
-        }
-        let fragility = self.fit(&intervals, shift).map_err(refused)?;
-        if analyses[0].resurrections.is_some() {
-            let last = fragility.fitted.quantile(LAST);
-            let stripes = resurrected(&made[0], threshold, last);
-            let fitted = fit_counts_alone(&stripes, shift);
-            let answer = fitted.map_err(ProcedureError::from);
-            let answer = answer.and_then(|fitted| self.point(fitted));
-            beside(Assumption::Resurrections, answer)?;
-        }
-        if let Some(law) = self.by_law(object) {
-            beside(Assumption::Law, self.point(law))?;
-        }
-        let slides_first = object.friction.map(|mu| {
-            self.slides(object, &made[0], &analyses[0], mu, &own_onset)
-        });
-        let slides_first = slides_first.transpose()?;
-        let mut resolution = ResolutionCounts::default();
-        for curve in &made[0] {
-            resolution.add(&curve.resolution);
-        }
-        let size = object.block.dimensions(self.options.gravity_m_s2)?;
-        Ok(ObjectResult {
-            assessed: ObjectAssessment {
-                id: id.clone(),
-                block: object.block,
-                floor: object.floor.as_ref().map(|on| on.name.clone()),
-                width_m: size.width_m,
-                height_m: size.height_m,
-                alpha_rad: object.block.slenderness_rad(),
-                p_rad_s: object.block.frequency_rad_s(),
-                eta: object.restitution.velocity_ratio(),
-                damage,
-                uplift_pga_g: threshold,
-                contributions: self
-                    .options
-                    .hazard
-                    .map_or(Vec::new(), |h| h.curve.contributions(own.fitted)),
-                band: self.band(&own),
-                ida: self.ida(&made[0], threshold).map_err(refused)?,
-                by_record: self.by_record(&intervals),
-                ranking: self
-                    .ranking(object, &own_onset, threshold)
-                    .map_err(refused)?,
-                fragility,
-                answer,
-                alternatives,
-                slides_first,
-                resolution,
-                first_in_draws: f64::NAN,
-            },
-            intervals,
-            key,
-            keys,
-        })
     }
 
     /// The measure at a PGA in g of a record that has `per` at 1 g.
-    fn scaled(&self, pga_g: f64, per: f64) -> f64 {
+    pub(super) fn scaled(&self, pga_g: f64, per: f64) -> f64 {
         power(&self.im, pga_g) * per * self.unit
-    }
-
-    fn ida(
-        &self,
-        curves: &[IdaCurve],
-        threshold: f64,
-    ) -> Result<Vec<StripeResponses>, ProcedureError> {
-        let mut found = StripeResponses::over(&response(curves)?, POINTS)?;
-        for stripe in &mut found {
-            stripe.intensity *= threshold;
-        }
-        Ok(found)
-    }
-
-    fn by_record(&self, values: &[(f64, f64)]) -> Vec<RecordCapacity> {
-        let named = self.names.iter().zip(values);
-        let of = |(name, (low, high)): (&&str, &(f64, f64))| RecordCapacity {
-            record: (*name).to_owned(),
-            im: *low,
-            damages: high.is_finite(),
-        };
-        let mut all: Vec<RecordCapacity> = named.map(of).collect();
-        all.sort_by(|a, b| {
-            let falls = b.damages.cmp(&a.damages);
-            falls.then(a.im.total_cmp(&b.im))
-        });
-        all
-    }
-
-    /// Intensity measures by the dispersion of the capacities `onset`.
-    fn ranking(
-        &self,
-        object: &Object,
-        onset: &[(f64, f64)],
-        threshold: f64,
-    ) -> Result<Ranking, ProcedureError> {
-        let candidate = |im: IntensityMeasure| {
-            let own = im.of_block(object.block.frequency_rad_s());
-            let per = self.per_pga(self.under(object), &own).into_iter();
-            let scale = power(&im, threshold);
-            let at_uplift = per.map(|per| per * scale).collect();
-            let squared = im.is_squared();
-            CandidateMeasure { im: im.to_string(), at_uplift, squared }
-        };
-        let candidates = IntensityMeasure::usual().into_iter().map(candidate);
-        let candidates: Vec<_> = candidates.collect();
-        rank(onset, &candidates, &[], self.clusters, self.options.draws)
-    }
-
-    /// The fragility by the law of AvgSA and the spectra of the records, in
-    /// the measure and unit of the hazard curve; none outside its range, and on
-    /// a floor.
-    ///
-    /// With IM/AvgSA lognormal over the records, and independent of AvgSA at
-    /// damage, the product of both is lognormal.
-    fn by_law(&self, object: &Object) -> Option<Lognormal> {
-        let (block, eta) =
-            (&object.block, object.restitution.velocity_ratio());
-        let edp = object.limit_ratio.unwrap_or(f64::INFINITY);
-        let law = law_fragility(block, eta, edp, ModelError::none()).ok()?;
-        if object.floor.is_some() {
-            return None;
-        }
-        let moved = self.under(object);
-        let [own, average] =
-            [&self.im, &law.im].map(|im| self.per_pga(moved, im));
-        let ratios = own.iter().zip(&average);
-        let ratios: Vec<f64> =
-            ratios.map(|(own, average)| log(own / average)).collect();
-        let log_mean = law.fitted.log_mean() + (&ratios).mean();
-        let both = hypot(law.fitted.dispersion(), (&ratios).std_dev());
-        let found = Lognormal::try_new(0.0, log_mean, both).ok()?;
-        found.scaled(self.unit).ok()
-    }
-
-    /// How far above the first overturning an object is analysed; none
-    /// unless overturning is counted in the PGA of the ground.
-    pub(super) fn resurrections(
-        &self,
-        object: &Object,
-    ) -> Option<Resurrections> {
-        let counts = object.limit_ratio.is_none()
-            && object.floor.is_none()
-            && self.im == IntensityMeasure::PGA;
-        counts.then_some(Resurrections::Multiple(REACH))
-    }
-
-    /// Share of records that need more friction than `friction` before they
-    /// damage the object; `onset` are the intensities of damage of the curves.
-    fn slides(
-        &self,
-        object: &Object,
-        curves: &[IdaCurve],
-        analysis: &Analysis,
-        friction: f64,
-        onset: &[(f64, f64)],
-    ) -> Result<f64, AssessError> {
-        let each =
-            self.under(object).normalised.par_iter().zip(curves).zip(onset);
-        let each = each.map(|((record, curve), (low, high))| {
-            let below = if high.is_finite() { *low } else { f64::INFINITY };
-            needs_more(record, curve, analysis, friction, below)
-        });
-        let found: Result<Vec<bool>, IdaError> = each.panic_fuse().collect();
-        let refused =
-            |source| AssessError::Ida { id: object.id.clone(), source };
-        let found = found.map_err(refused)?;
-        let count = found.iter().filter(|more| **more).count();
-        Ok(count as f64 / curves.len() as f64)
     }
 
     /// Joint damage of at least one, two, .. objects by the same record.
@@ -484,10 +389,13 @@ impl<'a> AssessmentSuite<'a> {
         &self,
         found: &[ObjectResult],
     ) -> Result<Vec<JointDamage>, AssessError> {
-        let own = found.iter().map(|one| one.assessed.uplift_pga_g);
+        let facts = found.iter().map(|one| &one.assessed.facts);
+        let own = facts.clone().map(|one| one.uplift_pga_g);
         let mut uplifts: Vec<f64> = own.collect();
         uplifts.sort_by(f64::total_cmp);
-        let on_ground = found.iter().all(|one| one.assessed.floor.is_none());
+        let on_ground = facts.clone().all(|one| one.object.floor.is_none());
+        let all = found.iter().map(|one| &one.unknowns);
+        let unknowns = Unknowns::widest(all, self.options.model_error);
         let several = (1..=found.len()).filter(|_| found.len() > 1);
         let mut all = Vec::new();
         for at_least in several {
@@ -502,14 +410,14 @@ impl<'a> AssessmentSuite<'a> {
                 if low == high { (low, high) } else { (low, f64::INFINITY) }
             };
             let values: Vec<(f64, f64)> =
-                (0..self.names.len()).map(of_record).collect();
+                (0..self.records.len()).map(of_record).collect();
             let shift = match self.im {
                 IntensityMeasure::PGA if on_ground => uplifts[at_least - 1],
                 _ => 0.0,
             };
             let id = format!("{at_least} objects or more");
-            let error = &self.options.model_error;
-            let own = self.drawn(&id, &values, shift, self.clusters, error);
+            let own =
+                self.drawn(&id, &values, shift, self.clusters, &unknowns);
             let own = own.map_err(|source| AssessError::Fit { id, source })?;
             all.push(JointDamage { at_least, answer: self.answer(&own) });
         }
@@ -518,34 +426,14 @@ impl<'a> AssessmentSuite<'a> {
 }
 
 /// The factor on a measure of a factor on the motion.
-fn power(im: &IntensityMeasure, factor: f64) -> f64 {
+pub(super) fn power(im: &IntensityMeasure, factor: f64) -> f64 {
     if im.is_squared() { factor * factor } else { factor }
 }
 
-fn response(curves: &[IdaCurve]) -> Result<Vec<ResponseCurve>, CapacityError> {
+pub(super) fn response(
+    curves: &[IdaCurve],
+) -> Result<Vec<ResponseCurve>, CapacityError> {
     curves.iter().map(|curve| curve.response(BracketEnd::Refined)).collect()
-}
-
-/// How many of the records overturn the object at each level of the grid up to
-/// `last` in g: each level by itself, as far as it was examined.
-fn resurrected(curves: &[IdaCurve], threshold: f64, last: f64) -> Vec<Stripe> {
-    let level = |im: f64| (im * threshold / STEP_G).round() as usize;
-    let stands = |curve: &IdaCurve, k: usize| {
-        let first = curve.overturning.map(|first| level(first.scanned_im));
-        let above = curve.above.iter().find(|point| level(point.im) == k);
-        match above {
-            Some(point) => !point.outcome.is_overturned(),
-            None => first.is_none_or(|first| k < first),
-        }
-    };
-    let levels = level(1.0) + 1..(last / STEP_G) as usize;
-    let stripe = |k: usize| {
-        let standing = curves.iter().filter(|c| stands(c, k)).count();
-        let (n, exceeded) = (curves.len(), curves.len() - standing);
-        let (n, exceeded) = (n as u64, exceeded as u64);
-        Stripe { im: STEP_G * k as f64, exceeded, n }
-    };
-    levels.map(stripe).collect()
 }
 
 /// The correlation of the logarithms of the intensities of damage of two

@@ -36,6 +36,13 @@ const SITE: [&str; 4] = ["lon", "lat", "depth", "custom_site_id"];
 /// Sites of OpenQuake are written with five decimals of a degree.
 const SAME_SITE_DEG: f64 = 0.6e-5;
 
+/// Accelerations in g, and velocities in m/s, above which a hazard curve is
+/// not plausible: at a frequency of [`SELDOM`] or more, or at any.
+const LARGE: [f64; 2] = [4.0, 12.0];
+
+/// Annual frequency.
+const SELDOM: f64 = 1e-5;
+
 /// Mean radius of the Earth in km.
 const EARTH_KM: f64 = 6371.0;
 
@@ -116,8 +123,8 @@ impl serde::Serialize for HazardMeasure {
     }
 }
 
-/// Part of a hazard curve that was set aside, or an assumption.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Part of a hazard curve that was set aside, an assumption, or a doubt.
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HazardRemark {
     /// Number of points at the end with a frequency of 0.
@@ -129,6 +136,9 @@ pub enum HazardRemark {
     Periods,
     /// The curve is computed from several curves in SA.
     Averaged,
+    /// An intensity of the curve that no earthquake reaches so often: the
+    /// curve may be in another unit.
+    Large(f64),
 }
 
 impl fmt::Display for HazardRemark {
@@ -151,6 +161,11 @@ impl fmt::Display for HazardRemark {
             Self::Averaged => f.write_str(
                 "the hazard curve in AvgSA is computed from curves in SA with \
                  the given correlation",
+            ),
+            Self::Large(intensity) => write!(
+                f,
+                "the hazard curve reaches {intensity}, which is not \
+                 plausible: check its unit"
             ),
         }
     }
@@ -533,6 +548,12 @@ fn made(
         };
         (line, error.into())
     })?;
+    let large = |(x, frequency): &&(f64, f64)| {
+        let limit = LARGE[usize::from(!(*frequency >= SELDOM))];
+        im != HazardMeasure::Own && !(*x <= limit * units_per_im_unit)
+    };
+    let largest = pairs.iter().rev().find(large);
+    remarks.extend(largest.map(|(x, _)| HazardRemark::Large(*x)));
     Ok(Hazard { curve, im, units_per_im_unit, remarks })
 }
 

@@ -67,6 +67,7 @@ tables!(
     BAND = "band",
     HAZARD = "hazard",
     BLOCKS = "blocks",
+    ASSESSED_OBJECTS = "assessed objects",
     ASSESSED_FRAGILITIES = "assessed fragilities",
     ASSESSED_CAPACITIES = "assessed capacities",
     ASSESSED_RESPONSES = "assessed responses",

@@ -11,7 +11,7 @@ mod remedies;
 
 use std::fmt;
 
-use libm::log;
+use libm::{log, log1p};
 use rayon::prelude::*;
 
 use self::ground::{AssessmentSuite, ObjectResult};
@@ -115,6 +115,26 @@ pub struct AssessOptions<'a> {
     /// Share of the records, in [0, 1), up to which an object that slides
     /// before its damage is still taken to rock.
     pub sliding_share: f64,
+}
+
+impl AssessOptions<'_> {
+    /// The return period in years of a target: of a probability of damage
+    /// P < 1 in `years` T, -T/ln(1 - P); a number from 1 on is the return
+    /// period itself. None for a number that is not positive.
+    ///
+    /// ```
+    /// use rocking_procedures::AssessOptions;
+    /// let usual = AssessOptions::target(0.1, 50.0).unwrap();
+    /// assert!((usual - 474.56).abs() < 0.01);
+    /// assert_eq!(AssessOptions::target(2500.0, 50.0), Some(2500.0));
+    /// assert_eq!(AssessOptions::target(-1.0, 50.0), None);
+    /// ```
+    pub fn target(target: f64, years: f64) -> Option<f64> {
+        match target {
+            p if p > 0.0 && p < 1.0 => Some(-years / log1p(-p)),
+            _ => Some(target).filter(|own| *own >= 1.0 && own.is_finite()),
+        }
+    }
 }
 
 /// What counts as damage.

@@ -1,6 +1,5 @@
 //! The drawings of an assessment.
 
-use maud::{Markup, html};
 use rocking_draw::colour::{Fill, Ink, Pen};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Look, Mark, Series,
@@ -10,52 +9,7 @@ use rocking_draw::panel::Marker;
 use rocking_procedures::StripeResponses;
 use rocking_procedures::assess::{Assessment, ObjectAssessment};
 
-use crate::words::{measure, short};
-
-/// Height in px of the tallest object in the drawing of all.
-const TALLEST_PX: f64 = 150.0;
-
-/// The objects side by side, to scale.
-pub(crate) fn sketch(objects: &[ObjectAssessment]) -> Markup {
-    let tallest = objects.iter().map(|o| o.height_m).fold(0.0, f64::max);
-    let scale = TALLEST_PX / tallest;
-    let mut x = 10.0;
-    let mut shown = Vec::new();
-    for one in objects {
-        let (w, h) = (scale * one.width_m, scale * one.height_m);
-        let room = w.max(7.5 * one.id.chars().count() as f64).max(70.0);
-        shown.push((x + 0.5 * (room - w), x + 0.5 * room, w, h, one));
-        x += room + 16.0;
-    }
-    let (width, height) = (x, TALLEST_PX + 52.0);
-    let ground = TALLEST_PX + 10.0;
-    html! {
-        div.scroll.drawing.wide role="region" aria-label="The objects to scale"
-            tabindex="0"
-        {
-            svg xmlns="http://www.w3.org/2000/svg" width=(width)
-                height=(height) viewBox={ "0 0 " (width) " " (height) }
-                role="img" aria-label="The objects, to scale"
-            {
-                line x1="0" x2=(width) y1=(ground) y2=(ground)
-                    stroke="currentColor" stroke-width="1.5" {}
-                @for (left, middle, w, h, one) in &shown {
-                    rect x=(left) y=(ground - h) width=(w) height=(h)
-                        fill="none" stroke="currentColor"
-                        stroke-width="1.5" {}
-                    text x=(middle) y=(ground + 17.0) font-size="12"
-                        text-anchor="middle" fill="currentColor" { (one.id) }
-                    text x=(middle) y=(ground + 34.0) font-size="11"
-                        text-anchor="middle" fill="currentColor"
-                    {
-                        (short(one.width_m)) " × "
-                        (short(one.height_m)) " m"
-                    }
-                }
-            }
-        }
-    }
-}
+use crate::words::measure;
 
 /// Fragility, response and, under a hazard curve, risk by intensity.
 pub(crate) fn curves(
@@ -69,7 +23,7 @@ pub(crate) fn curves(
     let columns = panels.len();
     let heading = Heading::new(
         format!("object-{k}"),
-        format!("Curves of {}", markup::escape(&one.id)),
+        format!("Curves of {}", markup::escape(&one.facts.object.label)),
         "Fragility, response and risk of one object.",
     );
     Chart { heading, panels, columns }
@@ -107,7 +61,7 @@ fn response(one: &ObjectAssessment) -> ChartPanel {
         "Rotation",
         ChartAxis::linear("largest rotation / alpha", (0.0, 1.2)),
         ChartAxis::linear(
-            match one.floor {
+            match one.facts.object.floor {
                 None => "PGA (g)",
                 Some(_) => "peak acceleration of the floor (g)",
             },

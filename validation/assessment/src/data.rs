@@ -1,13 +1,16 @@
 //! The numbers of an assessment as files.
 
 use rocking_common::table::columns::{
-    ASSESSED_CAPACITIES, ASSESSED_FRAGILITIES, ASSESSED_RESPONSES,
+    ASSESSED_CAPACITIES, ASSESSED_FRAGILITIES, ASSESSED_OBJECTS,
+    ASSESSED_RESPONSES,
 };
 use rocking_common::table::{Table, number, optional};
 use rocking_exchange::{BlockFragility, ExchangeFormat, Id, LimitState};
-use rocking_procedures::assess::{Assessment, ObjectAssessment};
+use rocking_procedures::assess::{Assessment, ObjectAssessment, ObjectState};
+use rocking_statistics::Estimate;
 use serde::Serialize;
 
+use crate::words::remarks;
 use crate::{About, Provenance};
 
 /// Version of the layout of `assess.json`.
@@ -33,6 +36,45 @@ pub fn json<T: Serialize>(found: &T, about: &About) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(&file)? + "\n")
 }
 
+/// The objects with their states and answers, as CSV.
+pub(crate) fn objects(found: &Assessment) -> String {
+    let mut table = Table::of(&ASSESSED_OBJECTS);
+    for (one, rank) in found.objects.iter().zip(1..) {
+        let years = one.answer.return_period_years();
+        let target = one.target.map(|own| own.to_string());
+        table.row([
+            one.facts.object.id.clone(),
+            one.facts.object.label.clone(),
+            one.state().to_string(),
+            rank.to_string(),
+            optional(years.map(|own| own.value())),
+            optional(years.and_then(|own| own.low())),
+            optional(years.and_then(|own| own.high())),
+            target.unwrap_or_default(),
+            optional(one.slides_first),
+            String::new(),
+            remarks(&one.facts),
+        ]);
+    }
+    for one in &found.not_rocking {
+        let none = String::new;
+        table.row([
+            one.facts.object.id.clone(),
+            one.facts.object.label.clone(),
+            ObjectState::NotRocking.to_string(),
+            none(),
+            none(),
+            none(),
+            none(),
+            none(),
+            number(one.share),
+            number(one.needed_friction),
+            remarks(&one.facts),
+        ]);
+    }
+    table.finish()
+}
+
 /// The fragility curves with their bands, as CSV.
 pub(crate) fn fragilities(found: &Assessment) -> String {
     let mut table = Table::of(&ASSESSED_FRAGILITIES);
@@ -40,7 +82,7 @@ pub(crate) fn fragilities(found: &Assessment) -> String {
         let band = one.band.iter().flat_map(|b| &b.points);
         for point in band {
             table.row([
-                one.id.clone(),
+                one.facts.object.id.clone(),
                 found.im.to_string(),
                 found.unit.to_owned(),
                 number(point.intensity),
@@ -59,7 +101,7 @@ pub(crate) fn capacities(found: &Assessment) -> String {
     for one in &found.objects {
         for row in &one.by_record {
             table.row([
-                one.id.clone(),
+                one.facts.object.id.clone(),
                 row.record.clone(),
                 found.im.to_string(),
                 found.unit.to_owned(),
@@ -77,7 +119,7 @@ pub(crate) fn responses(found: &Assessment) -> String {
     for one in &found.objects {
         for row in &one.ida {
             table.row([
-                one.id.clone(),
+                one.facts.object.id.clone(),
                 number(row.intensity),
                 number(row.edp16),
                 number(row.edp50),
@@ -105,14 +147,27 @@ pub(crate) fn exchanged(
         let own_unit =
             one.fragility.fitted.scaled(1.0 / found.units_per_im_unit);
         let state = LimitState { name: id("damage")?, fragility: own_unit? };
+        let own = &one.facts.object;
+        let remarks = remarks(&one.facts);
+        let stated = match remarks.is_empty() {
+            true => one.state().to_string(),
+            false => format!("{}: {remarks}", one.state()),
+        };
+        // The factor of recorded motions is a bias of the capacity, too.
+        let bias = Estimate::exact(one.answer.fitted.bias());
+        let is_own = bias.value() == found.model_error.bias().value();
+        let bias = (!is_own).then_some(bias);
         anyhow::Ok(BlockFragility {
-            id: id(&one.id)?,
-            block: one.block,
-            eta: Some(one.eta),
+            id: id(&own.id)?,
+            block: own.block,
+            eta: Some(own.restitution.velocity_ratio()),
             im: found.im.clone(),
             limit_states: vec![state],
-            origin: format!("{} records, rocking assess", found.records),
-            model_error: found.model_error,
+            origin: format!(
+                "{} records, rocking assess, {stated}",
+                found.records
+            ),
+            model_error: found.model_error.or(bias, None),
         })
     };
     let all = found.objects.iter().map(fragility);

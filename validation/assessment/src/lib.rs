@@ -3,6 +3,7 @@
 
 mod charts;
 mod data;
+mod room;
 pub mod shaking;
 mod words;
 
@@ -15,7 +16,6 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use rocking_draw::page::table::scrolled;
 use rocking_draw::page::{head, inline};
 use rocking_exchange::ExchangeFormat;
-use rocking_procedures::ModelError;
 use rocking_procedures::assess::{Assessment, Damage, ObjectAssessment};
 use rocking_procedures::fragility::hazard::Hazard;
 use rocking_statistics::Interval;
@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 pub use data::json;
 pub use words::{once_in, text};
 
+use rocking_common::words::percent;
 use words::{WordTable, measure, short};
 
 /// The page; it is written last, so if it exists, all files do.
@@ -32,9 +33,6 @@ pub const PAGE: &str = "index.html";
 
 /// How many records are named that damage an object first.
 const NAMED: usize = 5;
-
-/// Share of the records from which on an object slides first.
-const SLIDES: f64 = 0.05;
 
 /// How to get recorded motions.
 pub const RECORDED_MOTIONS: &str =
@@ -115,6 +113,7 @@ pub fn files(
 ) -> anyhow::Result<BTreeMap<String, Vec<u8>>> {
     let mut files = vec![
         ("assess.json".to_owned(), json(found, about)?),
+        ("objects.csv".to_owned(), data::objects(found)),
         ("capacities.csv".to_owned(), data::capacities(found)),
         ("fragilities.csv".to_owned(), data::fragilities(found)),
         ("responses.csv".to_owned(), data::responses(found)),
@@ -137,22 +136,35 @@ fn bytes(
 
 /// The page, beside which `files` lie.
 pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
-    let title = match found.objects.as_slice() {
-        [one] => format!("Rocking of {}", one.id),
+    let all: Vec<_> = words::every(found).collect();
+    let title = match all.as_slice() {
+        [one] => format!("Rocking of {}", one.object.label),
         all => format!("Rocking of {} objects", all.len()),
     };
     let introduction = html! {
-        "Each object is modelled as a free-standing rigid block. It begins \
-         to rock when the ground accelerates by g tan(alpha) or more; the \
-         tangent of the angle alpha is width over height. It overturns if it \
-         rotates too far. " (about.ground)
+        (about.ground) " Each object is modelled as a free-standing rigid \
+         block, which was not tested itself. " (words::held(found))
+        @for remark in &found.remarks { " Note: " (remark.to_string()) "." }
     };
     let sections = html! {
         section {
             h2 { "Which object first" }
-            (charts::sketch(&found.objects))
-            (table("All objects", &words::objects(found)))
+            @if !found.objects.is_empty() {
+                (table("Objects that rock", &words::objects(found)))
+            }
             (sliding(found))
+        }
+        (remedies(found))
+        section {
+            h2 { "The room" }
+            (room::line(&all))
+            (room::plan(&all))
+            p {
+                "The dashed outline is the rotation that counts as damage. \
+                 The clearance is how far the top leans beyond the base \
+                 there; farther, the object falls as far as it is high."
+            }
+            (table("Clearance, and falls", &words::room(found)))
         }
         @if !found.together.is_empty() { (together(found)) }
         @for (k, one) in found.objects.iter().enumerate() {
@@ -160,6 +172,7 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
         }
         (limits(found))
         (provenance(about, files))
+        (sign_off())
     };
     document(&title, &words::first(found), &introduction, &sections)
 }
@@ -211,29 +224,71 @@ fn table(label: &str, (heads, rows): &WordTable) -> Markup {
     scrolled(label, body)
 }
 
-/// Effect of friction on the answers.
+/// The objects that slide before they rock.
 fn sliding(found: &Assessment) -> Markup {
-    let ids = |of: &dyn Fn(&ObjectAssessment) -> bool| {
-        let all = found.objects.iter().filter(|one| of(one));
-        let all: Vec<&str> = all.map(|one| one.id.as_str()).collect();
-        all.join(", ")
-    };
-    let slide = ids(&|one| one.slides_first.is_some_and(|s| s > SLIDES));
-    let unknown = ids(&|one| one.slides_first.is_none());
+    let unknown = found.objects.iter();
+    let unknown = unknown.filter(|one| one.slides_first.is_none());
+    let unknown: Vec<&str> =
+        unknown.map(|one| one.facts.object.label.as_str()).collect();
     html! {
-        @if !slide.is_empty() {
+        @if !found.not_rocking.is_empty() {
+            h3 { "Objects that slide first" }
             p {
-                strong { "Sliding. " }
-                "Under more than 5 % of the records these objects need more \
-                 friction than their floor gives, before damage: " (slide)
-                ". They would slide before they rock, so the rocking results \
-                 do not apply to them."
+                "Before damage, these objects need more friction than their \
+                 floor gives under more than "
+                (percent(found.sliding_share, 0))
+                " of the records. They slide before they rock. The rocking \
+                 model has no answer for them, so they have no rank and no \
+                 return period. On a floor with the friction that rocking \
+                 needs, they can be assessed."
             }
+            (table("Objects that slide first", &words::sliding(found)))
         }
         @if !unknown.is_empty() {
             p {
-                "No coefficient of friction is given for " (unknown)
+                "No coefficient of friction is given for "
+                (words::list(&unknown))
                 ". Whether they slide before they rock was not checked."
+            }
+        }
+    }
+}
+
+/// What helps the objects that do not meet the target.
+fn remedies(found: &Assessment) -> Markup {
+    let all = words::remedies(found);
+    html! {
+        @if !all.1.is_empty() {
+            section {
+                h2 { "Measures that reach the target" }
+                p {
+                    "Each measure has the least size, in steps of 1 cm or 1 % \
+                     of the weight, for which the whole interval reaches the \
+                     target. A wider base counts across the shorter side; a \
+                     lower centre of mass, such as ballast, counts as a block \
+                     of twice its height. Ties hold the top. They are \
+                     computed from the moments about the pivot, the yielding \
+                     one for small angles. Check that the object bears them."
+                }
+                (table("Measures", &all))
+            }
+        }
+    }
+}
+
+fn sign_off() -> Markup {
+    html! {
+        section {
+            h2 { "Sign-off" }
+            p {
+                "By signing I confirm that the inventory, the hazard curve and \
+                 the records are those of the site, and that each remark \
+                 above was considered."
+            }
+            ul.signatures {
+                @for what in ["Issued", "Prepared by", "Reviewed by"] {
+                    li { (what) " ____________________" }
+                }
             }
         }
     }
@@ -269,50 +324,60 @@ fn together(found: &Assessment) -> Markup {
 
 fn object(found: &Assessment, one: &ObjectAssessment, k: usize) -> Markup {
     let chart = charts::curves(found, one, k).figure(String::new());
-    let own = format!("as above: coefficient of restitution {}", one.eta);
+    let facts = &one.facts;
+    let eta = facts.object.restitution.velocity_ratio();
+    let own = format!("as above: coefficient of restitution {eta}");
     let others = one.alternatives.iter();
     let others = others.map(|o| (o.assumption.to_string(), &o.answer));
     let rows = std::iter::once((own, &one.answer)).chain(others);
     let all = words::answers(found, ("Assumption", " damage"), rows);
+    let block = &facts.object.block;
     html! {
         section {
-            h2 { (one.id) }
+            h2 { (k + 1) ". " (words::label(facts)) }
             p {
-                (short(one.width_m)) " m wide, " (short(one.height_m))
-                " m high: alpha " (short(one.alpha_rad)) " rad, p "
-                (short(one.p_rad_s)) " rad/s. "
-                @if let Some(floor) = &one.floor {
-                    "It stands on the floor " (floor) ", one linear mode of \
-                     the building. There it begins to rock where the floor \
-                     accelerates by " (short(one.uplift_pga_g)) " g. "
+                (short(facts.width_m)) " m wide, " (short(facts.height_m))
+                " m high: alpha " (short(block.slenderness_rad())) " rad, p "
+                (short(block.frequency_rad_s())) " rad/s. "
+                @if let Some(floor) = &facts.object.floor {
+                    "It stands on the floor " (floor.name) ", one linear mode \
+                     of the building. There it begins to rock where the floor \
+                     accelerates by " (short(facts.uplift_pga_g)) " g. "
                 } @else {
                     "It begins to rock at a PGA of "
-                    (short(one.uplift_pga_g)) " g. "
+                    (short(facts.uplift_pga_g)) " g. "
                 }
-                "Damage is " (words::damage(one)) "."
-            }
-            figure.figure {
-                div class="scroll drawing wide" role="region"
-                    aria-label={ "Curves of " (one.id) } tabindex="0"
-                {
-                    (PreEscaped(inline(&chart.svg())))
-                }
-                figcaption {
-                    "(a) Probability of damage: the records (points), and \
-                     their lognormal fit with its 95 % band. An error of \
-                     the model also moves the onset of rocking. (b) \
-                     Rotation over alpha of 16, 50 and 84 % of the records at rising \
-                     intensity. At 1 the object is at the angle from which \
-                     it does not come back on flat, quiet ground."
-                    @if !one.contributions.is_empty() {
-                        " (c) The part of the annual frequency of damage \
-                         that comes from motions of each intensity."
-                    }
-                }
+                "Damage is " (words::damage(facts)) ". Its key in the files \
+                 for other programs is " code { (facts.object.id) } "."
             }
             h3 { "What changes the answer" }
+            (table("Parts of the interval", &words::parts(found, one)))
             (table("Answers under other assumptions", &all))
-            (remarks(found, one))
+            details {
+                summary { "Curves and further facts" }
+                figure.figure {
+                    div class="scroll drawing wide" role="region"
+                        aria-label={ "Curves of " (facts.object.label) }
+                        tabindex="0"
+                    {
+                        (PreEscaped(inline(&chart.svg())))
+                    }
+                    figcaption {
+                        "(a) Probability of damage: the records (points), \
+                         and their lognormal fit with its 95 % band. An \
+                         error of the model also moves the onset of rocking. \
+                         (b) Rotation over alpha of 16, 50 and 84 % of the \
+                         records at rising intensity. At 1 the object is at \
+                         the angle from which it does not come back on flat, \
+                         quiet ground."
+                        @if !one.contributions.is_empty() {
+                            " (c) The part of the annual frequency of damage \
+                             that comes from motions of each intensity."
+                        }
+                    }
+                }
+                (remarks(found, one))
+            }
         }
     }
 }
@@ -386,7 +451,7 @@ fn limits(found: &Assessment) -> Markup {
             h2 { "What these numbers leave out" }
             ul {
                 li {
-                    "Sliding, jumping, twisting, soft or uneven ground, \
+                    "Jumping, twisting, soft or uneven ground, \
                      neighbours and walls. The model is one rigid block in \
                      a plane (Eq. 1 of Lachanas, Vamvatsikos and \
                      Dimitrakopoulos)."
@@ -398,15 +463,14 @@ fn limits(found: &Assessment) -> Markup {
                 @if let Some(words) = words::recorded(found) {
                     li { (words) }
                 }
-                @if objects.iter().any(|one| one.floor.is_some()) {
+                @if words::every(found).any(|one| one.object.floor.is_some()) {
                     li {
                         "The other modes of the building, its damage, and \
                          the weight of the object."
                     }
                 }
                 li {
-                    "The uncertainty of the hazard curve. The intervals come "
-                    (words::held(found)) ". Drawn: "
+                    "The uncertainty of the hazard curve. Drawn: "
                     (found.basis.drawn.to_string()) "."
                 }
                 li {
@@ -418,24 +482,19 @@ fn limits(found: &Assessment) -> Markup {
                          with natural bases, in one laboratory; that of \
                          another object may differ. "
                     }
-                    @if found.model_error == ModelError::default() {
-                        "The range of the bias also covers a coefficient of \
-                         restitution from 0.85 to 0.97. "
-                    } @else {
-                        "The intervals treat the coefficient of restitution \
-                         as known. "
-                    }
-                    "The tables show the answers for 0.85 and 0.97."
+                    "The coefficient of restitution ranges from 0.85 to 0.97, \
+                     and to the value of Housner's formula."
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {
                         "Motions beyond the last point of the hazard curve. \
                          They are given the probability of damage at that \
                          point; for the upper end of a frequency each of \
-                         them causes damage."
+                         them causes damage. A return period longer than that \
+                         of the last point is not known."
                     }
                 }
-                @if objects.iter().any(|o| o.damage != Damage::Overturning) {
+                @if words::every(found).any(|o| o.damage != Damage::Overturning) {
                     li {
                         "If a rotation is the limit: damage from impacts at \
                          smaller rotations."

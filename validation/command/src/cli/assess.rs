@@ -25,6 +25,9 @@ use rocking_common::files::{OutputFolder, SUMS, sums};
 use rocking_common::paper::{RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
 
+/// The largest share of records under which an object that rocks slides first.
+pub const SLIDING_SHARE: f64 = 0.05;
+
 /// The kind of a suite by default.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
 
@@ -73,6 +76,14 @@ pub struct AssessCommand {
     hazard: Option<PathBuf>,
     #[command(flatten)]
     site: SiteArgs,
+    /// Target that each object is to reach: a return period in years, or a
+    /// probability of damage in --years; the page shows what would reach it.
+    #[arg(long, value_name = "YEARS|P", requires = "hazard")]
+    target: Option<f64>,
+    /// Share of the records above which an object that slides before its
+    /// damage counts as not rocking.
+    #[arg(long, value_name = "SHARE", default_value_t = SLIDING_SHARE)]
+    sliding_share: f64,
     /// Settle each outcome with sufficient precision, which takes about thirty
     /// times as long; without it, doubtful analyses are only counted.
     #[arg(long)]
@@ -116,8 +127,10 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
         years: args.site.years(),
         draws: args.bootstrap.draws(),
         certify: args.certify,
-        model_error: args.model_error.or(ModelError::default()),
+        model_error: args.model_error.or(ModelError::fitted()),
         recorded_ratios: &ratios,
+        target_years: args.target()?,
+        sliding_share: args.sliding_share,
     };
     let records = suite.motions.iter().map(|motion| motion.study.clone());
     let records: Vec<Accelerogram> = records.collect();
@@ -141,6 +154,18 @@ fn in_threads(args: &AssessCommand) -> Result<(), Failure> {
 }
 
 impl AssessCommand {
+    /// The target in years.
+    fn target(&self) -> Result<Option<f64>, Failure> {
+        let Some(target) = self.target else { return Ok(None) };
+        let found = AssessOptions::target(target, self.site.years());
+        ensure!(
+            found.is_some(),
+            "--target {target}: expected a return period of 1 year or more, \
+             or a probability between 0 and 1"
+        );
+        Ok(found)
+    }
+
     fn objects(&self) -> Result<Vec<Object>, Failure> {
         let gravity_m_s2 = STANDARD_GRAVITY_M_S2;
         let rows = match &self.objects {
@@ -160,15 +185,14 @@ impl AssessCommand {
                 row.place
             );
             let eta = row.cells.eta.unwrap_or(RESTITUTION);
+            let eta = Restitution::constant(eta)?;
             Ok(Object {
-                id: row.id.to_string(),
-                block: row.block,
-                restitution: Restitution::constant(eta)?,
                 friction: row.cells.friction,
                 limit_ratio: row.cells.limit_ratio,
                 floor: row.cells.floor.zip(floor).map(|(name, floor)| {
                     NamedFloor { name: name.to_string(), floor }
                 }),
+                ..Object::new(&row.id.to_string(), row.block, eta)
             })
         };
         rows.into_iter().zip(floors).map(object).collect()
@@ -205,7 +229,7 @@ impl AssessCommand {
             ("Hazard curve", named(&self.hazard)?),
             ("Draws of the intervals", Some(draws.replicates.to_string())),
             ("Repetition of the draws", Some(draws.seed.to_string())),
-            ("Fates of the analyses", Some(certified.to_owned())),
+            ("Outcomes of the analyses", Some(certified.to_owned())),
         ];
         Ok(About::of(ground, some))
     }

@@ -193,13 +193,10 @@ fn an_assessment_has_the_law_beside_its_answer() {
     let suite = rocking_synthesis::pulse().unwrap();
     let records: Vec<Accelerogram> =
         suite.iter().map(|pair| pair.components[0].clone()).collect();
-    let object = |p_rad_s| Object {
-        id: format!("p{p_rad_s}"),
-        block: Block::try_new(0.2, p_rad_s).unwrap(),
-        restitution: Restitution::constant(0.9).unwrap(),
-        friction: None,
-        limit_ratio: None,
-        floor: None,
+    let object = |p_rad_s| {
+        let block = Block::try_new(0.2, p_rad_s).unwrap();
+        let eta = Restitution::constant(0.9).unwrap();
+        Object::new(&format!("p{p_rad_s}"), block, eta)
     };
     let options = AssessOptions {
         gravity_m_s2: 9.81,
@@ -209,12 +206,15 @@ fn an_assessment_has_the_law_beside_its_answer() {
         certify: false,
         model_error: ModelError::none(),
         recorded_ratios: &[],
+        target_years: None,
+        sliding_share: 0.05,
     };
     let clusters = Clusters::singletons(records.len());
     let objects = [object(4.0), object(9.0)];
     let found = assess(&objects, &records, &clusters, &options).unwrap();
     let row = |k: usize| {
-        let all = &found.objects.iter().find(|o| o.id == objects[k].id);
+        let all =
+            &found.objects.iter().find(|o| o.facts.object.id == objects[k].id);
         let all = all.unwrap().alternatives.iter();
         all.filter(|own| own.assumption == Assumption::Law).collect::<Vec<_>>()
     };

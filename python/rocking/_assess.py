@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -44,9 +44,11 @@ class Floor:
 class Object:
     """A free-standing object.
 
-    `friction` is the coefficient of friction of what it stands on, where it
-    is known; `limit_ratio` a rotation over alpha that must not be exceeded;
-    no `floor` is the ground.
+    `id` is any text; the key for files of other programs is made of it.
+    `friction` is the coefficient of friction of its floor, if known;
+    `limit_ratio` a rotation over alpha that must not be exceeded; no `floor`
+    is the ground. `notes` are further columns of an inventory, `position_m`
+    the centre in the room in m.
     """
 
     id: str
@@ -55,6 +57,8 @@ class Object:
     friction: float | None = None
     limit_ratio: float | None = None
     floor: Floor | None = None
+    notes: Mapping[str, str] = field(default_factory=dict)
+    position_m: tuple[float, float] | None = None
 
     def _given(self) -> _rocking.GivenObject:
         on = self.floor
@@ -68,6 +72,8 @@ class Object:
             "friction": self.friction,
             "limit_ratio": self.limit_ratio,
             "floor": floor,
+            "notes": list(self.notes.items()),
+            "position_m": self.position_m,
         }
 
 
@@ -120,18 +126,74 @@ class DamagedTogether(Answer):
 
 
 @dataclass(frozen=True)
-class AssessedObject(Answer):
-    """One object."""
+class IntervalPart(Result):
+    """The answer if only one source is uncertain: return period in years, or
+    intensity of 5 % damage without a hazard curve."""
+
+    source: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Remedy(Result):
+    """A measure that changes the return period of an object."""
+
+    measure: str
+    """wider-base, lower-centre, isolation, yielding-tie or
+    tie-against-uplift."""
+    size: float
+    """Width in m, how much lower in m, period in s, force over weight."""
+    answer: Answer | None
+    """None if no size up to this one meets the target, and of a tie against
+    uplift."""
+    target: str | None
+
+
+@dataclass(frozen=True)
+class ObjectFacts(Result):
+    """What is known of an object without its answer."""
 
     id: str
+    """Key in files of other programs."""
+    label: str
+    state: str
+    """ranked, remarked or not rocking"""
+    remarks: tuple[str, ...]
+    notes: dict[str, str]
+    position_m: tuple[float, ...] | None
     width_m: float
     height_m: float
     alpha_rad: float
     p_rad_s: float
     eta: float
+    friction: float | None
     floor: str | None
     damage: str
     onset_pga_g: float
+    lean_m: float
+    """How far its top leans beyond its base at the rotation of damage."""
+    falls_on: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SlidingObject(ObjectFacts):
+    """An object that slides before it rocks. It has no rank."""
+
+    friction_share: float
+    needed_friction: float | None
+    """None if no friction is enough."""
+
+
+@dataclass(frozen=True)
+class AssessedObject(ObjectFacts, Answer):
+    """An object that rocks."""
+
+    return_period_years: Bounds | None
+    parts: tuple[IntervalPart, ...]
+    target: str | None
+    """meets, does not meet or undecided"""
+    remedies: tuple[Remedy, ...]
     p_damage: tuple[DamageProbability, ...]
     contributions: tuple[Contribution, ...]
     first_in_draws: float
@@ -147,17 +209,14 @@ class AssessedObject(Answer):
 
 @dataclass(frozen=True)
 class RecordedMotions(Result):
-    """Effect of recorded motions on answers under embedded ones: the median
-    ratio, the least and the largest."""
+    """Difference of recorded motions from embedded ones, a factor of each
+    capacity on the ground."""
 
     blocks: int
     """Blocks whose medians are compared."""
     median_ratio: Bounds
     """Median intensity of overturning under recorded motions over that under
-    embedded ones, of these blocks."""
-    return_period_ratio: Bounds | None
-    """Mean return period of overturning with these ratios as a bias of the
-    capacity over that without, of the objects on the ground."""
+    embedded ones: the median of these blocks, the least and the largest."""
 
 
 @dataclass(frozen=True)
@@ -176,8 +235,16 @@ class Assessment(Result):
     model_error: ModelError
     """In every answer except the alternative without it."""
     years: float
+    remarks: tuple[str, ...]
+    """On the hazard curve."""
+    longest_years: float | None
+    """Return period of its last point; longer ones are not known."""
+    target_years: float | None
+    sliding_share: float
     correlation: Bounds | None
     objects: tuple[AssessedObject, ...]
+    not_rocking: tuple[SlidingObject, ...]
+    """Objects that slide first."""
     together: tuple[DamagedTogether, ...]
     recorded_motions: RecordedMotions | None
     _files: dict[str, str] = field(default_factory=dict, repr=False)
@@ -205,6 +272,8 @@ def assess(
     *,
     hazard: Hazard | None = None,
     years: float = 50.0,
+    target: float | None = None,
+    sliding_share: float = 0.05,
     certify: bool = False,
     n_resamples: int = 1000,
     rng: int = 0,
@@ -227,13 +296,20 @@ def assess(
         with a probability of 5 %.
     years : float
         Years of probabilities.
+    target : float, optional
+        Return period in years that each object is to reach, or a probability
+        of damage in `years`; with measures that reach it.
+    sliding_share : float
+        Share of the records above which an object that slides before its
+        damage counts as not rocking.
     certify : bool
-        Decide each fate in the arithmetic that it needs.
+        Decide each outcome in the arithmetic that it needs.
     n_resamples, rng : int
         Draws of the bootstrap, of earthquakes if these are known, and their
         repetition.
     model_dispersion, model_bias : float or (value, low, high), optional
-        Error of the model, as in `risk`.
+        Error of the model, as in `risk`, without that of the coefficient of
+        restitution, which is varied here.
     gravity : float
         In m/s2.
     threads : int
@@ -257,6 +333,8 @@ def assess(
         None if hazard is None else hazard._written,
         {
             "years": number(years, "years"),
+            "target": None if target is None else number(target, "target"),
+            "sliding_share": number(sliding_share, "sliding_share"),
             "certify": certify,
             "replicates": n_resamples,
             "seed": seed(rng),

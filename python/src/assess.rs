@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
+use rocking_exchange::Id;
 use rocking_assessment::{About, files, recorded_ratios};
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::{
@@ -27,22 +28,26 @@ pub struct GivenObject {
     friction: Option<f64>,
     limit_ratio: Option<f64>,
     floor: Option<(String, f64, f64, f64)>,
+    notes: Vec<(String, String)>,
+    position_m: Option<(f64, f64)>,
 }
 
 impl GivenObject {
-    fn object(self) -> PyResult<Object> {
+    fn object(self, key: &Id) -> PyResult<Object> {
         let floor = self.floor.map(|(name, period_s, damping, height)| {
             let floor = Floor::try_new(period_s, damping, height);
             let floor = floor.map_err(|e| refuse(format!("{name}: {e}")))?;
             Ok::<_, PyErr>(NamedFloor { name, floor })
         });
+        let eta = Restitution::constant(self.eta).map_err(refuse)?;
         Ok(Object {
-            id: self.id,
-            block: block_of(self.block)?,
-            restitution: Restitution::constant(self.eta).map_err(refuse)?,
+            id: key.to_string(),
+            notes: self.notes,
+            position_m: self.position_m,
             friction: self.friction,
             limit_ratio: self.limit_ratio,
             floor: floor.transpose()?,
+            ..Object::new(&self.id, block_of(self.block)?, eta)
         })
     }
 }
@@ -52,6 +57,8 @@ impl GivenObject {
 #[pyo3(from_item_all)]
 pub struct Options {
     years: f64,
+    target: Option<f64>,
+    sliding_share: f64,
     certify: bool,
     replicates: usize,
     seed: u64,
@@ -72,7 +79,10 @@ pub fn assess(
     options: Options,
     threads: Option<usize>,
 ) -> PyResult<BTreeMap<String, String>> {
-    let objects = objects.into_iter().map(GivenObject::object);
+    let labels: Vec<&str> = objects.iter().map(|one| &*one.id).collect();
+    let keys = Id::of_labels(&labels).map_err(refuse)?;
+    let objects = objects.into_iter().zip(&keys);
+    let objects = objects.map(|(one, key)| one.object(key));
     let objects = objects.collect::<PyResult<Vec<Object>>>()?;
     let records: Vec<Accelerogram> = suite_of(records)?;
     let clusters = Clusters::of_events(&events, records.len());
@@ -83,7 +93,16 @@ pub fn assess(
     };
     let Options { replicates, seed, .. } = options;
     let model_error =
-        model_error(&options.model_error, ModelError::default())?;
+        model_error(&options.model_error, ModelError::fitted())?;
+    let years = options.years;
+    let target = options.target.map(|target| {
+        AssessOptions::target(target, years).ok_or_else(|| {
+            refuse(format!(
+                "target {target}: expected a return period of 1 year or more, \
+                 or a probability between 0 and 1"
+            ))
+        })
+    });
     let own = AssessOptions {
         gravity_m_s2: positive_gravity(options.gravity)?,
         hazard: hazard.as_ref(),
@@ -92,6 +111,8 @@ pub fn assess(
         certify: options.certify,
         model_error,
         recorded_ratios: &ratios.map_err(refuse)?,
+        target_years: target.transpose()?,
+        sliding_share: options.sliding_share,
     };
     let ground = match embedded {
         true => "No records are given: the motions are synthetic, made by \

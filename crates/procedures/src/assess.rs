@@ -28,7 +28,7 @@ use crate::fragility::total::TotalFragility;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::ida::ResolutionCounts;
-use rocking::names::as_text;
+use rocking::names::{as_text, named};
 use rocking_records::floor::Floor;
 use rocking_records::intensity::IntensityMeasure;
 use rocking_statistics::{Clusters, Estimate};
@@ -221,54 +221,31 @@ pub struct RecordedMotions {
     pub median_ratio: Estimate,
 }
 
-/// Whether the return period of an object reaches the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TargetVerdict {
-    /// The whole interval does.
-    Meets,
-    /// Nothing of the interval does.
-    Misses,
-    /// A part of the interval does.
-    Undecided,
-}
-
-impl fmt::Display for TargetVerdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Meets => "meets",
-            Self::Misses => "does not meet",
-            Self::Undecided => "undecided",
-        })
+named! {
+    /// Whether the return period of an object reaches the target.
+    pub enum TargetVerdict: "verdict on a target" {
+        /// The whole interval does.
+        Meets = "meets",
+        /// Nothing of the interval does.
+        Misses = "does not meet",
+        /// A part of the interval does.
+        Undecided = "undecided",
     }
 }
 
-as_text!(write TargetVerdict);
-
-/// A source of an answer's interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IntervalSource {
-    /// The choice of the records.
-    Records,
-    /// The coefficient of restitution.
-    Restitution,
-    /// The error of the model.
-    Model,
-    /// The difference of recorded motions.
-    Motions,
-}
-
-impl fmt::Display for IntervalSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Records => "choice of the records",
-            Self::Restitution => "coefficient of restitution",
-            Self::Model => "error of the model",
-            Self::Motions => "difference of recorded motions",
-        })
+named! {
+    /// A source of an answer's interval.
+    pub enum IntervalSource: "source of an interval" {
+        /// The choice of the records.
+        Records = "choice of the records",
+        /// The coefficient of restitution.
+        Restitution = "coefficient of restitution",
+        /// The error of the model.
+        Model = "error of the model",
+        /// The difference of recorded motions.
+        Motions = "difference of recorded motions",
     }
 }
-
-as_text!(write IntervalSource);
 
 /// The answer if only one source is uncertain.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

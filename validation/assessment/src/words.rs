@@ -346,8 +346,8 @@ pub(crate) fn sliding(found: &Assessment) -> WordTable {
     ];
     let row = |one: &SlidingObject| {
         let needed = match one.needed_friction {
-            mu if mu.is_finite() => ((100.0 * mu).ceil() / 100.0).to_string(),
-            _ => "no friction is enough".to_owned(),
+            mu if mu <= 1.0 => ((100.0 * mu).ceil() / 100.0).to_string(),
+            _ => "above 1".to_owned(),
         };
         let own = one.facts.object.friction.unwrap_or(f64::NAN);
         vec![
@@ -366,30 +366,25 @@ pub(crate) fn sliding(found: &Assessment) -> WordTable {
 /// A measure in words.
 fn measure_of(remedy: &Remedy, facts: &ObjectFacts) -> String {
     let to = if remedy.answer.is_some() { "" } else { "up to " };
-    let cm = |x: f64| rounded(100.0 * x, 3);
-    let weight = |share: f64| rounded(100.0 * share, 3);
-    match remedy.kind {
-        RemedyKind::WiderBase { width_m } => format!(
-            "base {to}{} cm wide instead of {} cm",
-            cm(width_m),
-            cm(facts.width_m)
+    let percent = rounded(100.0 * remedy.size, 3);
+    match remedy.measure {
+        RemedyKind::WiderBase => format!(
+            "base {to}{percent} cm wide instead of {} cm",
+            rounded(100.0 * facts.width_m, 3)
         ),
-        RemedyKind::LowerCentre { by_m } => {
-            format!("centre of mass {to}{} cm lower", cm(by_m))
+        RemedyKind::LowerCentre => {
+            format!("centre of mass {to}{percent} cm lower")
         }
-        RemedyKind::Isolation { period_s, damping } => format!(
-            "isolation with a period of {period_s} s and {} % damping",
-            cm(damping)
+        RemedyKind::Isolation => format!(
+            "isolation with a period of {} s and 15 % damping",
+            remedy.size
         ),
-        RemedyKind::Tie { force_over_weight } => format!(
-            "tie at the top that yields at {} % of its weight",
-            weight(force_over_weight)
-        ),
-        RemedyKind::NoUplift { force_over_weight } => format!(
-            "tie at the top for {} % of its weight: no uplift",
-            weight(force_over_weight)
-        ),
-        _ => String::new(),
+        RemedyKind::Tie => {
+            format!("tie at the top that yields at {percent} % of its weight")
+        }
+        RemedyKind::NoUplift => {
+            format!("tie at the top for {percent} % of its weight: no uplift")
+        }
     }
 }
 
@@ -398,7 +393,7 @@ pub(crate) fn remedies(found: &Assessment) -> WordTable {
     let heads =
         ["Object", "Measure", "Mean return period of damage, years", "Target"];
     let row = |one: &ObjectAssessment, remedy: &Remedy| {
-        let held = matches!(remedy.kind, RemedyKind::NoUplift { .. });
+        let held = remedy.measure == RemedyKind::NoUplift;
         let answer = remedy.answer.as_ref();
         let period = answer.and_then(|own| return_period(found, own));
         vec![

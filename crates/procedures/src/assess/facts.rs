@@ -8,7 +8,7 @@ use super::{AssessError, Damage, Object};
 use crate::ProcedureError;
 use rocking::block::{BlockError, Restitution};
 use rocking::integrator::{Model, uplift_threshold};
-use rocking::names::as_text;
+use rocking::names::{as_text, named};
 
 /// Sizes in m between which objects are plausible.
 const SIZES_M: (f64, f64) = (0.005, 15.0);
@@ -17,28 +17,17 @@ const SIZES_M: (f64, f64) = (0.005, 15.0);
 /// a remark.
 const FAR: f64 = 0.1;
 
-/// Whether an object has an answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ObjectState {
-    /// It has a rank.
-    Ranked,
-    /// It has a rank, and at least one remark.
-    Remarked,
-    /// It slides before it rocks, and has no rank.
-    NotRocking,
-}
-
-impl fmt::Display for ObjectState {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Ranked => "ranked",
-            Self::Remarked => "remarked",
-            Self::NotRocking => "not rocking",
-        })
+named! {
+    /// Whether an object has an answer.
+    pub enum ObjectState: "state of an object" {
+        /// It has a rank.
+        Ranked = "ranked",
+        /// It has a rank, and at least one remark.
+        Remarked = "remarked",
+        /// It slides before it rocks, and has no rank.
+        NotRocking = "not rocking",
     }
 }
-
-as_text!(write ObjectState);
 
 /// A doubt about the input or the answer of an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +52,7 @@ impl fmt::Display for ObjectRemark {
         match self {
             Self::Size(size_m) => {
                 let (least, most) = SIZES_M;
+                let size_m = (1e4 * size_m).round() / 1e4;
                 write!(
                     f,
                     "a size of {size_m} m is not between {least} and {most} \

@@ -10,6 +10,7 @@ use super::{
 };
 use rocking::block::Block;
 use rocking::ida::{Analysis, Batch, curves};
+use rocking::names::named;
 use rocking_records::floor::Floor;
 
 /// Period in s and damping ratio of the isolation.
@@ -29,52 +30,38 @@ const STEP: f64 = 0.01;
 #[non_exhaustive]
 pub struct Remedy {
     /// The measure.
-    #[serde(flatten)]
-    pub kind: RemedyKind,
-    /// Answer of the changed object; none if no size of the measure within
-    /// its limit meets the target.
+    pub measure: RemedyKind,
+    /// Its size, in the unit that the measure names.
+    pub size: f64,
+    /// Answer of the changed object; none if no size up to this one meets the
+    /// target, and of a tie against uplift.
     pub answer: Option<Answer>,
     /// Whether it meets the target.
     pub target: Option<TargetVerdict>,
 }
 
-/// The kind of a measure, with its size.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[serde(tag = "measure", rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum RemedyKind {
-    /// A base that is wider across its shorter side, such as a plate that is
-    /// fixed under the object.
-    WiderBase {
-        /// The width in m.
-        width_m: f64,
-    },
-    /// A lower centre of mass over the same base, such as ballast: the block
-    /// of twice its height.
-    LowerCentre {
-        /// How much lower in m.
-        by_m: f64,
-    },
-    /// Base isolation: a floor of one linear mode under the object.
-    Isolation {
-        /// Its period in s.
-        period_s: f64,
-        /// Its damping ratio.
-        damping: f64,
-    },
-    /// A tie at the top that holds with this force and gives way beyond it.
-    /// For small angles the object behaves as one with the tangent of its
-    /// slenderness larger by twice the force over its weight, and equal p.
-    Tie {
-        /// The force over the weight of the object.
-        force_over_weight: f64,
-    },
-    /// A tie at the top that keeps the object from uplift in all motions that
-    /// are not rarer than the target, by the moments about the pivot.
-    NoUplift {
-        /// The force over the weight of the object.
-        force_over_weight: f64,
-    },
+named! {
+    /// The kind of a measure.
+    pub enum RemedyKind: "measure" {
+        /// A base that is wider across its shorter side, such as a plate that
+        /// is fixed under the object; its width in m.
+        WiderBase = "wider-base",
+        /// A lower centre of mass over the same base, such as ballast: the
+        /// block of twice its height. How much lower in m.
+        LowerCentre = "lower-centre",
+        /// Base isolation: a floor of one linear mode under the object, with
+        /// 15 % damping; its period in s.
+        Isolation = "isolation",
+        /// A tie at the top that holds with a force and gives way beyond it;
+        /// the force over the weight of the object. For small angles the
+        /// object behaves as one with the tangent of its slenderness larger
+        /// by twice this ratio, and equal p.
+        Tie = "yielding-tie",
+        /// A tie at the top that keeps the object from uplift in all motions
+        /// that are not rarer than the target, by the moments about the pivot;
+        /// the force over the weight of the object.
+        NoUplift = "tie-against-uplift",
+    }
 }
 
 /// One object, and the return period to which its value has to rise for the
@@ -87,6 +74,9 @@ struct Case<'a> {
     years: f64,
     goal: f64,
 }
+
+/// A measure with its size, and the width and height of its block.
+type Resized = (RemedyKind, f64, (f64, f64));
 
 impl AssessmentSuite<'_> {
     /// Measures for an object that does not meet the target; `intervals` are
@@ -127,7 +117,7 @@ impl AssessmentSuite<'_> {
                 |f, k| f.width_m * k,
                 |f, x| {
                     let width_m = up(x);
-                    (RemedyKind::WiderBase { width_m }, (width_m, f.height_m))
+                    (RemedyKind::WiderBase, width_m, (width_m, f.height_m))
                 },
             )?,
             self.resized(
@@ -137,7 +127,7 @@ impl AssessmentSuite<'_> {
                 |f, x| {
                     let by_m = up(0.5 * f.height_m - x);
                     let size = (f.width_m, f.height_m - 2.0 * by_m);
-                    (RemedyKind::LowerCentre { by_m }, size)
+                    (RemedyKind::LowerCentre, by_m, size)
                 },
             )?,
             self.isolated(&case)?,
@@ -158,7 +148,7 @@ impl AssessmentSuite<'_> {
         case: &Case<'_>,
         factor: f64,
         size: impl Fn(&ObjectFacts, f64) -> f64,
-        rounded: impl Fn(&ObjectFacts, f64) -> (RemedyKind, (f64, f64)),
+        rounded: impl Fn(&ObjectFacts, f64) -> Resized,
     ) -> Result<Remedy, AssessError> {
         let facts = case.facts;
         let gravity = self.options.gravity_m_s2;
@@ -172,7 +162,7 @@ impl AssessmentSuite<'_> {
         let mut k = factor;
         let mut power = 3.0;
         if k < most {
-            let (_, first) = rounded(facts, size(facts, k));
+            let (.., first) = rounded(facts, size(facts, k));
             let other = changed(block(first)?);
             let coarse = Analysis {
                 grid: COARSE,
@@ -190,10 +180,11 @@ impl AssessmentSuite<'_> {
             if !(k < most) {
                 break;
             }
-            let (kind, sizes) = rounded(facts, size(facts, k));
+            let (measure, size, sizes) = rounded(facts, size(facts, k));
             let other = changed(block(sizes)?);
             let analysis = self.analysis(&other, other.restitution);
             let (values, shift) = self.of(&other, moved, &analysis)?;
+            let kind = (measure, size);
             let remedy = self.remedy(case, kind, &values, shift)?;
             if remedy.target == Some(TargetVerdict::Meets) {
                 return Ok(remedy);
@@ -202,8 +193,8 @@ impl AssessmentSuite<'_> {
             let low = period.and_then(|own| own.low()).unwrap_or(f64::NAN);
             k *= 1.02 * pow(case.target / low, power.recip());
         }
-        let kind = rounded(facts, size(facts, most)).0;
-        Ok(Remedy { kind, answer: None, target: None })
+        let (measure, size, _) = rounded(facts, size(facts, most));
+        Ok(Remedy { measure, size, answer: None, target: None })
     }
 
     fn isolated(&self, case: &Case<'_>) -> Result<Remedy, AssessError> {
@@ -222,7 +213,7 @@ impl AssessmentSuite<'_> {
         let other = Object { floor: Some(under.clone()), ..object.clone() };
         let analysis = self.analysis(&other, other.restitution);
         let (values, shift) = self.of(&other, &moved, &analysis)?;
-        let kind = RemedyKind::Isolation { period_s, damping };
+        let kind = (RemedyKind::Isolation, period_s);
         self.remedy(case, kind, &values, shift)
     }
 
@@ -236,7 +227,7 @@ impl AssessmentSuite<'_> {
         let slope = case.facts.uplift_pga_g;
         let mut force_over_weight = up(0.5 * (factor - 1.0) * slope);
         loop {
-            let kind = RemedyKind::Tie { force_over_weight };
+            let kind = (RemedyKind::Tie, force_over_weight);
             let k = 1.0 + 2.0 * force_over_weight / slope;
             let times = |(low, high): &(f64, f64)| (low * k, high * k);
             let values: Vec<_> = intervals.iter().map(times).collect();
@@ -263,15 +254,15 @@ impl AssessmentSuite<'_> {
             sum / uplifts.len() as f64
         };
         let k = least(|k| frequency(k) <= case.target.recip());
-        let force = up(0.5 * (k - 1.0) * case.facts.uplift_pga_g);
-        let kind = RemedyKind::NoUplift { force_over_weight: force };
-        Remedy { kind, answer: None, target: None }
+        let size = up(0.5 * (k - 1.0) * case.facts.uplift_pga_g);
+        let measure = RemedyKind::NoUplift;
+        Remedy { measure, size, answer: None, target: None }
     }
 
     fn remedy(
         &self,
         case: &Case<'_>,
-        kind: RemedyKind,
+        (measure, size): (RemedyKind, f64),
         values: &[(f64, f64)],
         shift: f64,
     ) -> Result<Remedy, AssessError> {
@@ -280,7 +271,7 @@ impl AssessmentSuite<'_> {
         let own = own.map_err(|source| case.facts.refused(source))?;
         let answer = self.answer(&own);
         let target = self.verdict(&answer);
-        Ok(Remedy { kind, answer: Some(answer), target })
+        Ok(Remedy { measure, size, answer: Some(answer), target })
     }
 
     /// Intensities of damage of an object on a motion, and the shift.

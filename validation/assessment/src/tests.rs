@@ -402,16 +402,16 @@ fn an_object_falls_on_what_is_within_its_height() {
 #[test]
 fn an_object_has_its_state_everywhere() {
     let hazard = "pga_g,annual_frequency\n0.01,0.1\n0.3,0.02\n0.4,0.01\n\
-                  20,0.001\n";
+                  1,0.00101\n20,0.001\n";
     let block = |width_m, height_m| {
         Block::from_dimensions(width_m, height_m, GRAVITY_M_S2).unwrap()
     };
     let eta = Restitution::constant(0.92).unwrap();
     let plain = Object { friction: Some(9.0), ..object("plain", 0.5) };
-    let millimetres = Object::new("in_mm", block(500.0, 1800.0), eta);
+    let centimetres = Object::new("in_cm", block(50.0, 180.0), eta);
     let squat = Object::new("squat", block(0.5, 0.6), eta);
     let slippery = Object { friction: Some(0.1), ..object("slippery", 0.5) };
-    let all = [plain, millimetres, squat, slippery];
+    let all = [plain, centimetres, squat, slippery];
     let found = under(hazard, &[], None, &all);
     let json: Value =
         serde_json::from_str(&file(&found, "assess.json")).unwrap();
@@ -419,7 +419,7 @@ fn an_object_has_its_state_everywhere() {
     let page = file(&found, "index.html");
     for (id, state, words) in [
         ("plain", "ranked", ""),
-        ("in_mm", "remarked", "a size of 500 m"),
+        ("in_cm", "remarked", "a size of 50 m"),
         ("squat", "remarked", "Housner's formula gives"),
         ("slippery", "not rocking", ""),
     ] {
@@ -444,9 +444,10 @@ fn an_object_has_its_state_everywhere() {
         let exported = file(&found, "pelicun.csv").contains(id);
         assert_eq!(exported, has_rank, "{id}");
     }
-    let mm = found.objects.iter().find(|o| o.facts.object.id == "in_mm");
+    let cm = found.objects.iter().find(|o| o.facts.object.id == "in_cm");
     let beyond = ObjectRemark::BeyondHazard(1000.0);
-    assert!(mm.unwrap().facts.remarks.contains(&beyond));
+    let cm = cm.unwrap();
+    assert!(cm.facts.remarks.contains(&beyond));
     assert!(page.contains("rarer than 1 in 1,000"));
     assert!(page.contains("the hazard curve reaches 20"));
 }

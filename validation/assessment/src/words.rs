@@ -113,31 +113,32 @@ pub(crate) fn list(all: &[&str]) -> String {
     }
 }
 
-/// The labels of the objects with this answer to the target.
-fn labels(found: &Assessment, of: TargetVerdict) -> Vec<&str> {
-    let all = found.objects.iter().filter(|one| one.target == Some(of));
-    all.map(|one| one.facts.object.label.as_str()).collect()
-}
-
 /// The answer: which object first, how often, and whether the objects meet
 /// the target.
 pub(crate) fn first(found: &Assessment) -> String {
+    let mut rows = Vec::new();
     let mut words = match found.objects.first() {
         None => "No object rocks: each slides first. ".to_owned(),
         Some(one) => leading(found, one),
     };
     if let Some(target) = found.target_years {
-        let of = |verdict| labels(found, verdict);
+        let years = thousands(target);
         for (verdict, what) in [
-            (TargetVerdict::Misses, "Below the target of"),
-            (TargetVerdict::Undecided, "Not decided against"),
-            (TargetVerdict::Meets, "At or above"),
+            (TargetVerdict::Misses, "not met by"),
+            (TargetVerdict::Undecided, "in the interval of"),
+            (TargetVerdict::Meets, "met by"),
         ] {
-            let those = of(verdict);
+            let all = found.objects.iter();
+            let those = all.filter(|one| one.target == Some(verdict));
+            let those: Vec<&str> =
+                those.map(|one| &*one.facts.object.label).collect();
             if !those.is_empty() {
-                let years = thousands(target);
-                words += &format!("{what} {years} years: {}. ", list(&those));
+                rows.push(format!("{what} {}", list(&those)));
             }
+        }
+        if !rows.is_empty() {
+            let rows = rows.join("; ");
+            words += &format!("Target, once in {years} years: {rows}. ");
         }
     }
     let sliding = found.not_rocking.iter();
@@ -145,7 +146,7 @@ pub(crate) fn first(found: &Assessment) -> String {
         sliding.map(|one| one.facts.object.label.as_str()).collect();
     if !(sliding.is_empty() || found.objects.is_empty()) {
         words += &format!(
-            "Without a rank, since they slide before they rock: {}. ",
+            "Without a rank, because of sliding before rocking: {}. ",
             list(&sliding)
         );
     }
@@ -305,6 +306,7 @@ pub(crate) fn objects(found: &Assessment) -> WordTable {
     let with_risk = found.longest_years.is_some();
     if found.target_years.is_some() {
         heads.push("Target".to_owned());
+        heads.push("Measure that meets the target".to_owned());
     }
     if !with_risk {
         heads.extend(intensity_heads(found, " damage"));
@@ -318,7 +320,13 @@ pub(crate) fn objects(found: &Assessment) -> WordTable {
         cells.push(facts.damage.to_string());
         cells.extend(return_period(found, &one.answer));
         cells.extend(in_years(found, &one.answer));
-        cells.extend(one.target.map(|own| own.to_string()));
+        if let Some(target) = one.target {
+            let meets = Some(TargetVerdict::Meets);
+            let mut those = one.remedies.iter();
+            let found = those.find(|remedy| remedy.target == meets);
+            let found = found.map(|remedy| measure_of(remedy, facts));
+            cells.extend([target.to_string(), found.unwrap_or_default()]);
+        }
         if !with_risk {
             let ims = [&one.answer.small_im, &one.answer.median_im];
             cells.extend(ims.map(three_digits));

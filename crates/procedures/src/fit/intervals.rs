@@ -7,7 +7,7 @@ use libm::exp;
 use super::levels::resampled;
 use super::{BootstrapFits, Draws, FitOptions, SampleFit};
 use crate::LEVEL;
-use crate::fragility::total::TotalFragility;
+use crate::fragility::total::{Parts, TotalFragility};
 use crate::model_error::ModelError;
 use rocking_statistics::bootstrap::BootstrapEstimate;
 use rocking_statistics::estimate::keys;
@@ -220,11 +220,17 @@ impl BootstrapFits {
     /// draws if they have a model error; without intervals by the delta
     /// method.
     pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
+        let drawn: Vec<Parts> = match self.basis.model_error {
+            Some(_) => {
+                self.fitted.iter().flatten().map(|f| f.parts()).collect()
+            }
+            None => Vec::new(),
+        };
         let point = |&intensity: &f64| {
             let score = |fit: &TotalFragility| fit.score(intensity);
             let probability = if self.basis.model_error.is_some() {
                 let value = fitted.cdf(intensity);
-                let between = self.between_draws(value, intensity);
+                let between = self.between_draws(value, intensity, &drawn);
                 between.unwrap_or(Estimate::exact(value))
             } else {
                 let own = self.estimate(score(fitted), Range::Real, score);
@@ -242,14 +248,19 @@ impl BootstrapFits {
     /// The American Statistician 69 (2015) 371). Near the onset of rocking the
     /// scores of draws with and without a dispersion of the model lie so far
     /// apart that they have no useful standard error.
-    fn between_draws(&self, value: f64, intensity: f64) -> Option<Estimate> {
+    fn between_draws(
+        &self,
+        value: f64,
+        intensity: f64,
+        drawn: &[Parts],
+    ) -> Option<Estimate> {
         let clusters = &self.basis.drawn;
         let effective = clusters.effective();
         let t = clusters.student(self.basis.level)?;
         let tail =
             normal::survival(t * (effective / (effective - 1.0)).sqrt());
-        let all = self.fitted.iter().flatten();
-        let all: Vec<f64> = all.map(|fit| fit.cdf(intensity)).collect();
+        let all: Vec<f64> =
+            drawn.iter().map(|fit| fit.cdf(intensity)).collect();
         if !(clusters.count() > 2 && 10 * all.len() > 9 * self.fitted.len()) {
             return None;
         }

@@ -3,7 +3,7 @@
 use libm::exp;
 use thiserror::Error;
 
-use super::total::TotalFragility;
+use super::total::{Parts, TotalFragility};
 use rocking_statistics::normal;
 use rocking_statistics::search::narrow;
 
@@ -45,7 +45,7 @@ pub fn points(
     fragility: impl Into<TotalFragility>,
     tolerance: f64,
 ) -> Result<Vec<(f64, f64)>, PointsError> {
-    let fragility = &fragility.into();
+    let fragility = &fragility.into().parts();
     let refused = PointsError(tolerance);
     if !(1e-8..=0.1).contains(&tolerance) {
         return Err(refused);
@@ -64,7 +64,7 @@ pub fn points(
 
 /// Points at about `intervals` equal steps of the score, with the mode.
 fn at_equal_scores(
-    fragility: &TotalFragility,
+    fragility: &Parts,
     tail: f64,
     intervals: u32,
 ) -> Vec<(f64, f64)> {
@@ -92,7 +92,7 @@ fn at_equal_scores(
 
 /// The largest difference between F and straight lines between the points,
 /// which F crosses no inflection between; F is 1 - tail beyond the last.
-fn largest_error(fragility: &TotalFragility, points: &[(f64, f64)]) -> f64 {
+fn largest_error(fragility: &Parts, points: &[(f64, f64)]) -> f64 {
     let end = points[points.len() - 1];
     let mut largest = fragility.survival(end.0);
     for pair in points.windows(2) {

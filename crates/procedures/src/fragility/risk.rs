@@ -199,14 +199,20 @@ impl HazardCurve {
         &self,
         fragility: impl Into<TotalFragility>,
     ) -> AnnualFrequency {
-        let fragility = fragility.into();
+        let fragility = fragility.into().parts();
         let (first, last) = self.ends();
         let segments = self.segments();
+        let nothing = normal::quantile(1e-18 * last.1 / first.1);
         let of = |law: &Lognormal| {
-            segments.iter().fold(0.0, |sum, own| sum + own.integral(law))
+            // The frequency is at least H_n times the probability of damage
+            // below x_n and the median; weaker motions add H_1 F at most.
+            let least = law.score(last.0).min(0.0) + nothing;
+            let least = law.at_score(least);
+            let own = segments.iter().filter(|own| own.to.0 > least);
+            own.fold(0.0, |sum, own| sum + own.integral(law))
         };
         let first_probability = fragility.cdf(first.0);
-        let low = first_probability * first.1 + mean(&fragility, of);
+        let low = first_probability * first.1 + fragility.mean_of(of);
         AnnualFrequency {
             truncation_lower: low,
             truncation_upper: low + fragility.survival(last.0) * last.1,
@@ -237,7 +243,7 @@ impl HazardCurve {
         &self,
         fragility: impl Into<TotalFragility>,
     ) -> Vec<Contribution> {
-        let fragility = fragility.into();
+        let fragility = fragility.into().parts();
         let one = |own: &Segment| {
             let within = |(im, frequency)| fragility.cdf(im) * frequency;
             let ends = within(own.from) - within(own.to);
@@ -245,18 +251,11 @@ impl HazardCurve {
                 from_im: own.from.0,
                 to_im: own.to.0,
                 annual_frequency: ends
-                    + mean(&fragility, |law| own.integral(law)),
+                    + fragility.mean_of(|law| own.integral(law)),
             }
         };
         self.segments().iter().map(one).collect()
     }
-}
-
-/// A function that is linear in the law, of a total.
-fn mean(fragility: &TotalFragility, of: impl Fn(&Lognormal) -> f64) -> f64 {
-    fragility
-        .mixture()
-        .fold(0.0, |sum, (weight, law)| f64::mul_add(weight, of(&law), sum))
 }
 
 /// Part of a hazard curve between two points: ln H falls by k with ln x.
@@ -264,6 +263,8 @@ struct Segment {
     from: (f64, f64),
     to: (f64, f64),
     k: f64,
+    /// Logarithms of its intensities.
+    logs: (f64, f64),
 }
 
 /// Scores beyond which the normal density is nothing beside any frequency.
@@ -295,7 +296,7 @@ impl Segment {
     fn between(pair: &[(f64, f64)]) -> Self {
         let (from, to) = (pair[0], pair[1]);
         let k = log(from.1 / to.1) / log(to.0 / from.0);
-        Self { from, to, k }
+        Self { from, to, k, logs: (log(from.0), log(to.0)) }
     }
 
     fn frequency(&self, im: f64) -> f64 {
@@ -306,7 +307,13 @@ impl Segment {
     fn integral(&self, fragility: &Lognormal) -> f64 {
         stop::point();
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
-        let (from, to) = scores(fragility, self.from.0, self.to.0);
+        let (from, to) = match shift {
+            0.0 => {
+                let score = |y: f64| (y - fragility.log_mean()) / beta;
+                within((score(self.logs.0), score(self.logs.1)))
+            }
+            _ => scores(fragility, self.from.0, self.to.0),
+        };
         // Above the median H is below that of the median.
         if !(to > from && from < CERTAIN) {
             return 0.0;
@@ -315,12 +322,13 @@ impl Segment {
         if shift == 0.0 && drop <= STEEPEST {
             // Of H = H(m) exp(-drop z): the density about -drop.
             let (from, to) = (from + drop, to + drop);
-            let at_median = self.frequency(exp(fragility.log_mean()));
+            let off = fragility.log_mean() - self.logs.0;
+            let factor = exp(0.5 * drop * drop - self.k * off);
             let inside = match from > 0.0 {
                 true => normal::survival(from) - normal::survival(to),
                 false => normal::cdf(to) - normal::cdf(from),
             };
-            return at_median * exp(0.5 * drop * drop) * inside;
+            return self.from.1 * factor * inside;
         }
         if drop * PIECE <= FALL {
             return self.quadrature(fragility, (from, to));
@@ -369,7 +377,10 @@ impl Segment {
 
 /// Scores of two intensities, none beyond [`LAST_SCORE`].
 fn scores(fragility: &Lognormal, from: f64, to: f64) -> (f64, f64) {
-    let (from, to) = (fragility.score(from), fragility.score(to));
+    within((fragility.score(from), fragility.score(to)))
+}
+
+fn within((from, to): (f64, f64)) -> (f64, f64) {
     (from.max(-LAST_SCORE), to.min(LAST_SCORE))
 }
 

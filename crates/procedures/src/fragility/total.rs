@@ -15,9 +15,22 @@ const LAST_SCORE: f64 = 8.5;
 /// Score beyond which a normal probability counts as 0 or 1.
 const CERTAIN: f64 = 9.0;
 
-/// Step of the trapezoidal rule over the model's share of the total
-/// dispersion. The integrand is analytic: the error is about exp(-35).
-const STEP: f64 = 0.75;
+/// How finely a total is computed.
+#[derive(Debug, PartialEq)]
+struct Fineness {
+    /// Step of the trapezoidal rule over the model's share of the total
+    /// dispersion. The integrand is analytic: the error is about
+    /// exp(-2 (pi/step)^2).
+    step: f64,
+    /// Largest error of a quantile's score.
+    score: f64,
+}
+
+/// Of every total but a draw: the rule errs by exp(-35).
+const EXACT: Fineness = Fineness { step: 0.75, score: 1e-14 };
+
+/// Of a draw: the rule errs by exp(-20).
+const DRAW: Fineness = Fineness { step: 1.0, score: 1e-7 };
 
 /// Smallest dispersion of the model but 0, and the largest one.
 pub const MODEL_DISPERSION: (f64, f64) = (0.01, 1.0);
@@ -55,13 +68,37 @@ pub struct TotalFragility {
     /// Of b c.
     biased: Lognormal,
     closed: Option<Lognormal>,
+    fineness: &'static Fineness,
+}
+
+/// A lognormal without a shift, one of those whose mean a total is.
+struct Part {
+    /// Density of its score.
+    density: f64,
+    /// Sum of the densities up to this one.
+    sum: f64,
+    log_median: f64,
+}
+
+/// A total with its parts, computed once for many intensities.
+pub(crate) struct Parts {
+    total: TotalFragility,
+    step: f64,
+    /// None if the total is lognormal; the medians rise.
+    parts: Vec<Part>,
 }
 
 impl From<Lognormal> for TotalFragility {
     /// A fragility without an error of the model.
     fn from(records: Lognormal) -> Self {
-        let (bias, dispersion, closed) = (1.0, 0.0, Some(records));
-        Self { records, bias, dispersion, biased: records, closed }
+        Self {
+            records,
+            bias: 1.0,
+            dispersion: 0.0,
+            biased: records,
+            closed: Some(records),
+            fineness: &EXACT,
+        }
     }
 }
 
@@ -87,7 +124,26 @@ impl TotalFragility {
             _ if biased.shift() > 0.0 => None,
             _ => Some(Lognormal::try_new(0.0, biased.log_mean(), both)?),
         };
-        Ok(Self { records, bias, dispersion, biased, closed })
+        let fineness = &EXACT;
+        Ok(Self { records, bias, dispersion, biased, closed, fineness })
+    }
+
+    /// The total in a draw, of which five digits are enough.
+    ///
+    /// From four standard deviations below the median to three above,
+    /// probabilities and quantiles differ from those of
+    /// [`TotalFragility::try_new`] by at most 2e-6 of their value, and so do
+    /// annual frequencies.
+    ///
+    /// # Errors
+    /// As [`TotalFragility::try_new`].
+    pub(crate) fn of_draw(
+        records: Lognormal,
+        bias: f64,
+        dispersion: f64,
+    ) -> Result<Self, LognormalError> {
+        let exact = Self::try_new(records, bias, dispersion)?;
+        Ok(Self { fineness: &DRAW, ..exact })
     }
 
     /// The law of the records.
@@ -110,97 +166,145 @@ impl TotalFragility {
         self.closed
     }
 
-    /// Step of the rule, and number of its steps on either side of 0.
-    fn steps(&self) -> (f64, i32) {
-        let both = hypot(self.biased.dispersion(), self.dispersion);
-        let step = STEP * self.dispersion / both;
-        (step, (LAST_SCORE / step).ceil() as i32)
-    }
-
-    /// Weights and lognormals whose mean the total is, in a fixed order. A
-    /// part whose median is infinite adds to no probability.
-    pub fn mixture(&self) -> impl Iterator<Item = (f64, Lognormal)> {
-        let (step, last) = match self.closed {
-            Some(_) => (0.0, 0),
-            None => self.steps(),
-        };
-        let (own, s) = (self.biased, self.dispersion);
-        let closed = self.closed;
-        (-last..=last).filter_map(move |k| {
-            let z = step * f64::from(k);
-            let part =
-                || Lognormal::try_new(0.0, log(own.at_score(z)), s).ok();
-            let weight = if closed.is_some() { 1.0 } else { step * pdf(z) };
-            Some((weight, closed.or_else(part)?))
-        })
-    }
-
-    /// A function of x/median of the parts, the mean over them: from the part
-    /// on below which the score of x is above [`CERTAIN`], and `far` for
-    /// those.
-    fn mean(&self, x: f64, far: f64, of: impl Fn(f64) -> f64) -> f64 {
+    /// The total with its parts.
+    pub(crate) fn parts(&self) -> Parts {
         let (own, s) = (&self.biased, self.dispersion);
-        let (step, last) = self.steps();
-        let place = |off: f64| {
-            let z = own.score(x * exp(off * s)) / step;
-            z.clamp(f64::from(-last - 1), f64::from(last)) as i32
-        };
-        let z = |k: i32| step * f64::from(k);
-        let (from, to) = (place(-CERTAIN), place(CERTAIN));
-        let below = (-last..from).fold(0.0, |sum, k| sum + pdf(z(k)));
-        let near = (from.max(-last)..=to.saturating_add(1).min(last)).fold(
-            far * below,
-            |sum, k| {
-                let score = (log(x) - log(own.at_score(z(k)))) / s;
-                f64::mul_add(pdf(z(k)), of(score), sum)
-            },
-        );
-        step * near
+        let step = self.fineness.step * s / hypot(own.dispersion(), s);
+        let mut parts = Vec::new();
+        if self.closed.is_none() {
+            let last = (LAST_SCORE / step).ceil() as i32;
+            let mut sum = 0.0;
+            for k in -last..=last {
+                let z = step * f64::from(k);
+                let (density, log_median) = (pdf(z), log(own.at_score(z)));
+                sum += density;
+                parts.push(Part { density, sum, log_median });
+            }
+        }
+        Parts { total: *self, step, parts }
     }
 
     /// The distribution function, a fragility's value at intensity x.
     pub fn cdf(&self, x: f64) -> f64 {
-        match self.closed {
+        self.parts().cdf(x)
+    }
+
+    /// The survival function 1 - F(x).
+    pub fn survival(&self, x: f64) -> f64 {
+        self.parts().survival(x)
+    }
+
+    /// The normal score of F(x).
+    pub fn score(&self, x: f64) -> f64 {
+        self.parts().score(x)
+    }
+
+    /// The intensity of a normal score.
+    pub fn at_score(&self, z: f64) -> f64 {
+        self.parts().at_score(z)
+    }
+
+    /// The quantile at probability p in [0, 1]; NaN outside.
+    pub fn quantile(&self, p: f64) -> f64 {
+        self.parts().quantile(p)
+    }
+
+    /// The median.
+    pub fn median(&self) -> f64 {
+        let of = || self.quantile(0.5);
+        self.closed.map_or_else(of, |law| law.median())
+    }
+
+    /// The distribution of `factor` times the intensity.
+    ///
+    /// # Errors
+    /// [`LognormalError`] unless the factor is positive and finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self, LognormalError> {
+        let records = self.records.scaled(factor)?;
+        let exact = Self::try_new(records, self.bias, self.dispersion)?;
+        Ok(Self { fineness: self.fineness, ..exact })
+    }
+}
+
+impl Parts {
+    /// The total itself, if it is lognormal.
+    pub(super) fn closed(&self) -> Option<Lognormal> {
+        self.total.closed
+    }
+
+    /// The mean of a function that is linear in the law. A part whose median
+    /// is infinite adds nothing.
+    pub(super) fn mean_of(&self, of: impl Fn(&Lognormal) -> f64) -> f64 {
+        if let Some(law) = self.closed() {
+            return of(&law);
+        }
+        self.parts.iter().fold(0.0, |sum, one| {
+            let s = self.total.dispersion;
+            Lognormal::try_new(0.0, one.log_median, s).map_or(sum, |law| {
+                f64::mul_add(self.step * one.density, of(&law), sum)
+            })
+        })
+    }
+
+    /// A function of the scores of the parts at x, the mean over them: of
+    /// those whose score is at most [`CERTAIN`], and `far` for those before.
+    fn mean(&self, x: f64, far: f64, of: impl Fn(f64) -> f64) -> f64 {
+        let y = log(x);
+        let score = |one: &Part| (y - one.log_median) / self.total.dispersion;
+        let up_to =
+            |least: f64| self.parts.partition_point(|one| score(one) > least);
+        let (from, to) = (up_to(CERTAIN), up_to(-CERTAIN));
+        let below = from.checked_sub(1).map_or(0.0, |k| self.parts[k].sum);
+        let near =
+            self.parts[from..to].iter().fold(far * below, |sum, one| {
+                f64::mul_add(one.density, of(score(one)), sum)
+            });
+        self.step * near
+    }
+
+    /// The distribution function.
+    pub(crate) fn cdf(&self, x: f64) -> f64 {
+        match self.closed() {
             Some(law) => law.cdf(x),
             None if x > 0.0 => self.mean(x, 1.0, normal::cdf).min(1.0),
             None => 0.0,
         }
     }
 
-    /// The survival function 1 - F(x).
-    pub fn survival(&self, x: f64) -> f64 {
-        self.closed.map_or_else(|| 1.0 - self.cdf(x), |law| law.survival(x))
+    /// The survival function.
+    pub(super) fn survival(&self, x: f64) -> f64 {
+        self.closed().map_or_else(|| 1.0 - self.cdf(x), |law| law.survival(x))
     }
 
-    /// The normal score of F(x).
-    pub fn score(&self, x: f64) -> f64 {
+    fn score(&self, x: f64) -> f64 {
         let of = || normal::quantile(self.cdf(x));
-        self.closed.map_or_else(of, |law| law.score(x))
+        self.closed().map_or_else(of, |law| law.score(x))
     }
 
-    /// The logarithm of the density in x.
-    pub fn ln_pdf(&self, x: f64) -> f64 {
-        let of = || log(self.mean(x, 0.0, pdf) / (x * self.dispersion));
-        self.closed.map_or_else(of, |law| law.ln_pdf(x))
+    /// The logarithm of the density.
+    pub(super) fn ln_pdf(&self, x: f64) -> f64 {
+        let s = self.total.dispersion;
+        let of = || log(self.mean(x, 0.0, pdf) / (x * s));
+        self.closed().map_or_else(of, |law| law.ln_pdf(x))
     }
 
     /// The intensity of a normal score.
-    pub fn at_score(&self, z: f64) -> f64 {
+    pub(super) fn at_score(&self, z: f64) -> f64 {
         let of = || self.quantile(normal::cdf(z));
-        self.closed.map_or_else(of, |law| law.at_score(z))
+        self.closed().map_or_else(of, |law| law.at_score(z))
     }
 
-    /// The quantile at probability p in [0, 1]; NaN outside.
-    pub fn quantile(&self, p: f64) -> f64 {
-        if let Some(law) = self.closed {
+    fn quantile(&self, p: f64) -> f64 {
+        if let Some(law) = self.closed() {
             return law.quantile(p);
         }
         if !(p > 0.0 && p < 1.0) {
             return if p == 0.0 { 0.0 } else { normal::quantile(p) };
         }
+        let total = &self.total;
         let place = |z: f64| {
-            let unbiased = self.records.at_score(z);
-            f64::mul_add(self.dispersion, z, log(self.bias * unbiased))
+            let unbiased = total.records.at_score(z);
+            f64::mul_add(total.dispersion, z, log(total.bias * unbiased))
         };
         // P(Z <= a or Z1 <= a) is at most 2 P(Z <= a), and that of both is
         // its square. The score of F is almost linear between these ends.
@@ -216,7 +320,7 @@ impl TotalFragility {
         for _ in 0..100 {
             let y = (low * at_high - high * at_low) / (at_high - at_low);
             let at = off(y);
-            if !(at.abs() > 1e-14 && y > low && y < high) {
+            if !(at.abs() > total.fineness.score && y > low && y < high) {
                 return exp(y);
             }
             // Regula falsi, Illinois: an end that stays counts half.
@@ -233,26 +337,11 @@ impl TotalFragility {
         exp(0.5 * (low + high))
     }
 
-    /// The median.
-    pub fn median(&self) -> f64 {
-        let of = || self.quantile(0.5);
-        self.closed.map_or_else(of, |law| law.median())
-    }
-
     /// The score of the largest density.
     pub(super) fn mode_score(&self) -> f64 {
         let density = |z: f64| self.ln_pdf(self.at_score(z));
         let of = || golden(density, -8.0, 8.0);
-        self.closed.map_or_else(of, |law| -law.dispersion())
-    }
-
-    /// The distribution of `factor` times the intensity.
-    ///
-    /// # Errors
-    /// [`LognormalError`] unless the factor is positive and finite.
-    pub fn scaled(&self, factor: f64) -> Result<Self, LognormalError> {
-        let records = self.records.scaled(factor)?;
-        Self::try_new(records, self.bias, self.dispersion)
+        self.closed().map_or_else(of, |law| -law.dispersion())
     }
 }
 
@@ -271,5 +360,51 @@ impl serde::Serialize for TotalFragility {
         all.serialize_field("model_dispersion", &self.dispersion)?;
         all.serialize_field("records", &self.records)?;
         all.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fragility::risk::HazardCurve;
+
+    /// Beside the exact total, which reference cases hold: over the range of
+    /// the model's dispersion, and under a steep and a flat hazard curve.
+    #[test]
+    fn a_draw_keeps_five_digits() {
+        let steep = [(1e-3, 1e2), (0.1, 1.0), (1.0, 1e-3), (9.0, 1e-8)];
+        let flat = [(0.02, 1e-2), (0.3, 5e-3), (3.0, 2e-3), (40.0, 1e-3)];
+        let hazards =
+            [steep, flat].map(|all| HazardCurve::try_new(&all).unwrap());
+        let mut worst = [0.0_f64; 3];
+        for (shift, log_mean) in [(0.05, -2.0), (0.2, 0.3), (1.0, -1.5)] {
+            for beta in [0.05, 0.2, 0.45, 0.8, 1.5] {
+                for s in [0.01, 0.03, 0.1, 0.2, 0.25, 0.5, 1.0] {
+                    let own = Lognormal::try_new(shift, log_mean, beta);
+                    let own = own.unwrap();
+                    let exact = TotalFragility::try_new(own, 1.2, s).unwrap();
+                    let draw = TotalFragility::of_draw(own, 1.2, s).unwrap();
+                    let draw = draw.scaled(3.0).unwrap();
+                    let draw = draw.scaled(1.0 / 3.0).unwrap();
+                    let mut hold = |kind: usize, found: f64, right: f64| {
+                        let error = (found / right - 1.0).abs();
+                        worst[kind] = worst[kind].max(error);
+                    };
+                    for k in -8..=6 {
+                        let p = normal::cdf(0.5 * f64::from(k));
+                        let x = exact.quantile(p);
+                        hold(0, draw.cdf(x), exact.cdf(x));
+                        hold(1, draw.quantile(p), x);
+                    }
+                    for hazard in &hazards {
+                        let [found, right] = [draw, exact].map(|own| {
+                            hazard.annual_frequency(own).truncation_lower
+                        });
+                        hold(2, found, right);
+                    }
+                }
+            }
+        }
+        assert!(worst.iter().all(|error| *error < 2e-6), "{worst:?}");
     }
 }

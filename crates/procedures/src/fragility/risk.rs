@@ -206,9 +206,9 @@ impl HazardCurve {
         let of = |law: &Lognormal| {
             // The frequency is at least H_n times the probability of damage
             // below x_n and the median; weaker motions add H_1 F at most.
-            let least = law.score(last.0).min(0.0) + nothing;
-            let least = law.at_score(least);
-            let own = segments.iter().filter(|own| own.to.0 > least);
+            let to = |own: &Segment| own.scores(law).1;
+            let least = segments.last().map_or(0.0, to).min(0.0) + nothing;
+            let own = segments.iter().filter(|own| to(own) > least);
             own.fold(0.0, |sum, own| sum + own.integral(law))
         };
         let first_probability = fragility.cdf(first.0);
@@ -303,17 +303,20 @@ impl Segment {
         self.from.1 * exp(-self.k * log(im / self.from.0))
     }
 
+    /// Scores of its intensities.
+    fn scores(&self, law: &Lognormal) -> (f64, f64) {
+        let score = |x, log_x: f64| match law.shift() {
+            0.0 => (log_x - law.log_mean()) / law.dispersion(),
+            _ => law.score(x),
+        };
+        (score(self.from.0, self.logs.0), score(self.to.0, self.logs.1))
+    }
+
     /// Integral of H dF over the segment.
     fn integral(&self, fragility: &Lognormal) -> f64 {
         stop::point();
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
-        let (from, to) = match shift {
-            0.0 => {
-                let score = |y: f64| (y - fragility.log_mean()) / beta;
-                within((score(self.logs.0), score(self.logs.1)))
-            }
-            _ => scores(fragility, self.from.0, self.to.0),
-        };
+        let (from, to) = within(self.scores(fragility));
         // Above the median H is below that of the median.
         if !(to > from && from < CERTAIN) {
             return 0.0;
@@ -341,7 +344,8 @@ impl Segment {
             let share = f64::from(part) / parts;
             let high = (self.from.0 * exp(share * log(ratio))).min(self.to.0);
             let high = if share < 1.0 { high } else { self.to.0 };
-            let (from, to) = scores(fragility, low, high);
+            let score = |x| fragility.score(x);
+            let (from, to) = within((score(low), score(high)));
             if to > from {
                 sum += self.quadrature(fragility, (from, to));
             }
@@ -375,11 +379,7 @@ impl Segment {
     }
 }
 
-/// Scores of two intensities, none beyond [`LAST_SCORE`].
-fn scores(fragility: &Lognormal, from: f64, to: f64) -> (f64, f64) {
-    within((fragility.score(from), fragility.score(to)))
-}
-
+/// Two scores, none beyond [`LAST_SCORE`].
 fn within((from, to): (f64, f64)) -> (f64, f64) {
     (from.max(-LAST_SCORE), to.min(LAST_SCORE))
 }

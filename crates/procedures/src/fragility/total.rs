@@ -8,16 +8,14 @@ use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::normal::{self, pdf};
 use rocking_statistics::search::golden;
 
-/// Largest score of the records' law that enters: the normal probability
-/// beyond is 1e-17.
-const LAST_SCORE: f64 = 8.5;
-
 /// Score beyond which a normal probability counts as 0 or 1.
 const CERTAIN: f64 = 9.0;
 
 /// How finely a total is computed.
 #[derive(Debug, PartialEq)]
 struct Fineness {
+    /// Largest score of the records' law that enters.
+    last_score: f64,
     /// Step of the trapezoidal rule over the model's share of the total
     /// dispersion. The integrand is analytic: the error is about
     /// exp(-2 (pi/step)^2).
@@ -26,11 +24,12 @@ struct Fineness {
     score: f64,
 }
 
-/// Of every total but a draw: the rule errs by exp(-35).
-const EXACT: Fineness = Fineness { step: 0.75, score: 1e-14 };
+/// Of every total but a draw: the rule errs by exp(-35), and the normal
+/// probability beyond the last score is 1e-17.
+const EXACT: Fineness = Fineness { last_score: 8.5, step: 0.75, score: 1e-14 };
 
-/// Of a draw: the rule errs by exp(-20).
-const DRAW: Fineness = Fineness { step: 1.0, score: 1e-7 };
+/// Of a draw: the rule errs by exp(-20), the probability is 1e-12.
+const DRAW: Fineness = Fineness { last_score: 7.0, step: 1.0, score: 1e-7 };
 
 /// Smallest dispersion of the model but 0, and the largest one.
 pub const MODEL_DISPERSION: (f64, f64) = (0.01, 1.0);
@@ -172,7 +171,7 @@ impl TotalFragility {
         let step = self.fineness.step * s / hypot(own.dispersion(), s);
         let mut parts = Vec::new();
         if self.closed.is_none() {
-            let last = (LAST_SCORE / step).ceil() as i32;
+            let last = (self.fineness.last_score / step).ceil() as i32;
             let mut sum = 0.0;
             for k in -last..=last {
                 let z = step * f64::from(k);

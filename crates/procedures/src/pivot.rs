@@ -131,13 +131,12 @@ impl PivotForces {
     }
 }
 
-/// Of the levels of a curve below an intensity, every this many is analysed,
-/// beginning with the strongest.
-const EVERY: usize = 3;
+/// Number of levels of a curve at which friction is sought.
+const LEVELS: usize = 5;
 
 /// The largest friction |H|/N that a record needs at the levels of its curve
-/// below the intensity `below_im`: at the strongest one, and at every third
-/// one below it. Infinite if N is not positive.
+/// below the intensity `below_im`: at the strongest one, and at four more,
+/// evenly below it. Infinite if N is not positive.
 ///
 /// # Errors
 /// As [`forces_at`].
@@ -148,12 +147,13 @@ pub(super) fn largest_friction(
     below_im: f64,
 ) -> Result<f64, IdaError> {
     let levels = curve.points.iter().rev().map(|point| point.im);
-    let levels = levels.filter(|im| *im < below_im).step_by(EVERY);
-    levels
-        .map(|im| Ok(forces_at(record, analysis, im)?.friction))
-        .try_fold(0.0, |most: f64, found: Result<f64, IdaError>| {
-            Ok(most.max(found?))
-        })
+    let levels: Vec<f64> = levels.filter(|im| *im < below_im).collect();
+    let step = levels.len().div_ceil(LEVELS).max(1);
+    let each = levels.into_iter().step_by(step);
+    each.map(|im| Ok(forces_at(record, analysis, im)?.friction)).try_fold(
+        0.0,
+        |most: f64, found: Result<f64, IdaError>| Ok(most.max(found?)),
+    )
 }
 
 #[cfg(test)]

@@ -151,7 +151,7 @@ fn an_export_that_would_be_wrong_is_refused_and_writes_nothing() {
     for (name, table) in [
         ("column.csv", "alfa,p\n0.1,3\n"),
         ("half.csv", "alpha,p\n0.1,\n"),
-        ("dot.csv", "id,alpha,p\na.b,0.1,3\n"),
+        ("name.csv", "id,alpha,p\n=a,0.1,3\n"),
         ("eta.csv", "alpha,p,eta\n0.1,3,0.9\n"),
         ("flat.csv", "alpha,p\n1.6,3\n"),
     ] {

@@ -80,7 +80,7 @@ pub fn assess(
     threads: Option<usize>,
 ) -> PyResult<BTreeMap<String, String>> {
     let labels: Vec<&str> = objects.iter().map(|one| &*one.id).collect();
-    let keys = Id::of_labels(&labels).map_err(refuse)?;
+    let keys = Id::of_labels(&labels);
     let objects = objects.into_iter().zip(&keys);
     let objects = objects.map(|(one, key)| one.object(key));
     let objects = objects.collect::<PyResult<Vec<Object>>>()?;

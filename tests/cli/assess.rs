@@ -251,16 +251,25 @@ fn what_is_no_assessment_is_refused() {
     };
     write("limit.csv", "id,alpha,p,limit_ratio\na,0.2,3,1.5\n");
     write("floor.csv", "id,alpha,p,floor\na,0.2,3,attic\n");
-    write("name.csv", "id,alpha,p\na vase,0.2,3\n");
+    write("name.csv", "id,alpha,p\n@vase,0.2,3\n");
+    write("two.csv", "id,alpha,p\na,0.2,-3\na,0.1,3\n");
     write("unit.csv", "intensity,annual_frequency\n0.1,0.1\n1,1e-3\n");
     let assess = "assess --suite suite --bootstrap 20 --out page";
     for (more, words) in [
-        ("--objects limit.csv", "a: limit_ratio 1.5: expected"),
+        (
+            "--objects limit.csv",
+            "limit.csv:2: limit_ratio is \"1.5\": expected",
+        ),
         ("--objects floor.csv", "floor.csv:2: floor attic"),
         ("--objects name.csv --target 100", "--hazard"),
         ("--objects name.csv --target 2e6 --hazard hazard.csv", "target 2"),
         ("--objects name.csv --target -1 --hazard hazard.csv", "--target -1"),
         ("--objects name.csv --sliding-share 1", "sliding share 1"),
+        (
+            "--objects two.csv",
+            "two.csv:2: p is \"-3\": expected a positive number\n\
+             two.csv:3: a is already on line 2: expected a unique label\n",
+        ),
         ("--alpha 0.2 --p 3 --hazard unit.csv", "hazard curve in"),
         ("", "--objects"),
     ] {

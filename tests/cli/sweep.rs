@@ -194,7 +194,7 @@ fn a_table_of_blocks_that_makes_no_sweep_is_refused() {
         ("id,alpha,p\na,0.1,3\na,0.2,3\n", "twice.csv:3: a is already on"),
         ("id,alpha,p\na,0.1,3\nb,0.1,3\n", "b is the same block as a"),
         ("alpha,p,sample\n0.1,3,x.txt\n", "twice.csv:2: a sample"),
-        ("alpha,p,colour\n0.1,3,red\n", "twice.csv:2"),
+        ("alpha,p,etta\n0.1,3,1\n", "twice.csv:1: column etta: expected"),
         ("alpha,p,eta\n0.1,3,1.5\n", "twice.csv:2"),
         ("alpha,p\n0.1,NaN\n", "twice.csv:2"),
         ("alpha,p\n", "no block"),

@@ -2,6 +2,7 @@
 //! read to what every reader promises. Each has a folder of its name in
 //! `corpus`, which `cargo test --test gate readers` replays.
 
+use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -163,7 +164,10 @@ fn blocks(bytes: &[u8]) -> Result<(), String> {
     let rows = blocks::parse(bytes, file(), 9.81);
     let rows = rows.map_err(|failure| failure.message)?;
     assert!(!rows.is_empty());
-    for row in rows {
+    let ids: BTreeSet<_> = rows.iter().map(|row| &row.id).collect();
+    assert_eq!(ids.len(), rows.len());
+    for row in &rows {
+        assert!(!row.label.is_empty());
         let alpha = row.block.slenderness_rad();
         assert!(alpha > 0.0 && alpha < std::f64::consts::FRAC_PI_2);
         assert!(row.cells.friction.is_none_or(|x| x > 0.0 && x.is_finite()));

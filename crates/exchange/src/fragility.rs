@@ -4,9 +4,11 @@
 //! programs need the PGA or PGV of one block, in their own units: OpenQuake
 //! PGA in g and PGV in cm/s, pelicun and PACT in g and m/s.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 
+use deunicode::deunicode;
 use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
 use rocking::names::as_text;
@@ -77,6 +79,60 @@ impl Id {
         let alpha = digits(block.slenderness_rad());
         let p = digits(block.frequency_rad_s());
         format!("block_a{alpha}_p{p}").parse()
+    }
+
+    /// The name made of a text for people: the text itself if it is a name,
+    /// else its transliteration, with one `_` for each run of other
+    /// characters; `None` if nothing is left.
+    ///
+    /// ```
+    /// use rocking_exchange::Id;
+    /// let id = |label: &str| Id::of_label(label).map(|id| id.to_string());
+    /// assert_eq!(id("Kouros_1").as_deref(), Some("Kouros_1"));
+    /// assert_eq!(id("Étagère n° 3 (1972.118)").as_deref(), Some("Etagere_ndeg_3_1972_118"));
+    /// assert_eq!(id("..."), None);
+    /// ```
+    pub fn of_label(label: &str) -> Option<Self> {
+        if let Ok(id) = label.parse() {
+            return Some(id);
+        }
+        let ascii = deunicode(label);
+        let other = |c: char| !c.is_ascii_alphanumeric() && c != ':';
+        let words = ascii.split(other).filter(|word| !word.is_empty());
+        let mut name = words.collect::<Vec<_>>().join("_");
+        name.truncate(LONGEST);
+        name.trim_end_matches('_').parse().ok()
+    }
+
+    /// Names made of the labels of several objects: `object_` and the place of
+    /// a label of which nothing is left.
+    ///
+    /// ```
+    /// use rocking_exchange::Id;
+    /// let ids = Id::of_labels(&["Krater", "...", "Kräter"]);
+    /// let ids: Vec<String> = ids.iter().map(Id::to_string).collect();
+    /// assert_eq!(ids, ["Krater", "object_2", "Krater_2"]);
+    /// ```
+    pub fn of_labels(labels: &[&str]) -> Vec<Self> {
+        let of = |(label, place): (&&str, usize)| {
+            let other = || Self(format!("object_{place}"));
+            Self::of_label(label).unwrap_or_else(other)
+        };
+        let mut ids: Vec<Self> = labels.iter().zip(1..).map(of).collect();
+        Self::distinguish(ids.iter_mut());
+        ids
+    }
+
+    /// Puts `_2`, `_3` behind the second and third of equal names.
+    pub fn distinguish<'a>(ids: impl Iterator<Item = &'a mut Self>) {
+        let mut taken = BTreeSet::new();
+        for id in ids {
+            let (own, mut count) = (id.clone(), 1);
+            while !taken.insert(id.clone()) {
+                count += 1;
+                *id = Self(format!("{own:.60}_{count}"));
+            }
+        }
     }
 }
 

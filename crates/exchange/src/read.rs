@@ -119,7 +119,7 @@ pub fn reader<R: Read>(
 ) -> csv::Reader<Closed<R>> {
     let mut builder = csv::ReaderBuilder::new();
     builder.trim(trim).comment(comment);
-    builder.from_reader(Closed::new(from, comment))
+    builder.from_reader(Closed::new(from, comment, b','))
 }
 
 /// A refusal of text that is not CSV; `path` is its name in messages.

@@ -150,10 +150,10 @@ pub(super) fn largest_friction(
     let levels: Vec<f64> = levels.filter(|im| *im < below_im).collect();
     let step = levels.len().div_ceil(LEVELS).max(1);
     let each = levels.into_iter().step_by(step);
-    each.map(|im| Ok(forces_at(record, analysis, im)?.friction)).try_fold(
-        0.0,
-        |most: f64, found: Result<f64, IdaError>| Ok(most.max(found?)),
-    )
+    each.map(|im| Ok(forces_at(record, analysis, im)?.friction))
+        .try_fold(0.0, |most: f64, found: Result<f64, IdaError>| {
+            Ok(most.max(found?))
+        })
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ const MARK: [u8; 3] = *b"\xef\xbb\xbf";
 pub struct Closed<R> {
     from: R,
     comment: Option<u8>,
+    separator: u8,
     place: CsvPlace,
     /// Number of bytes of a byte order mark that were read.
     mark: usize,
@@ -37,11 +38,11 @@ pub struct Closed<R> {
 }
 
 impl<R> Closed<R> {
-    /// The bytes of `from`. Lines that begin with `comment` are not part of
-    /// the table.
-    pub fn new(from: R, comment: Option<u8>) -> Self {
+    /// The bytes of `from`, with `separator` between cells. Lines that begin
+    /// with `comment` are not part of the table.
+    pub fn new(from: R, comment: Option<u8>, separator: u8) -> Self {
         let place = CsvPlace::Line;
-        Self { from, comment, place, mark: 0, line: 1, opened: 1 }
+        Self { from, comment, separator, place, mark: 0, line: 1, opened: 1 }
     }
 
     fn pass(&mut self, byte: u8) {
@@ -57,7 +58,7 @@ impl<R> Closed<R> {
             (Line, byte) if Some(byte) == self.comment => Comment,
             (Comment, byte) if byte != b'\n' => Comment,
             (_, b'\n' | b'\r') => Line,
-            (_, b',') => Cell,
+            (_, byte) if byte == self.separator => Cell,
             (Line | Cell, b'"') => {
                 self.opened = self.line;
                 Quoted
@@ -90,10 +91,11 @@ mod tests {
 
     /// Whether a file ends within a quoted cell, as the crate `csv` has it:
     /// a line behind it is then part of that cell.
-    fn swallows(text: &str) -> bool {
+    fn swallows(text: &str, separator: u8) -> bool {
         let probe = format!("{text}\nprobe\n");
         let mut reader = csv::ReaderBuilder::new();
         reader.has_headers(false).flexible(true).comment(Some(b'#'));
+        reader.delimiter(separator);
         let mut reader = reader.from_reader(probe.as_bytes());
         let last = reader.records().last().unwrap().unwrap();
         last.iter().collect::<Vec<_>>() != ["probe"]
@@ -114,9 +116,18 @@ mod tests {
         let marked = all.iter().map(|text| format!("\u{feff}{text}"));
         let marked: Vec<String> = marked.collect();
         for text in all.into_iter().chain(marked) {
-            let mut closed = Closed::new(text.as_bytes(), Some(b'#'));
-            let read = io::read_to_string(&mut closed);
-            assert_eq!(read.is_err(), swallows(&text), "{text:?}");
+            for separator in [b',', b';'] {
+                let text =
+                    text.replace(',', &char::from(separator).to_string());
+                let mut closed =
+                    Closed::new(text.as_bytes(), Some(b'#'), separator);
+                let read = io::read_to_string(&mut closed);
+                assert_eq!(
+                    read.is_err(),
+                    swallows(&text, separator),
+                    "{text:?}"
+                );
+            }
         }
     }
 }

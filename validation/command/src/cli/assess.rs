@@ -184,15 +184,22 @@ impl AssessCommand {
                  computed here",
                 row.place
             );
+            if row.decimal_commas {
+                let place = &row.place;
+                note(&format!("{place}: decimal commas read as points"));
+            }
             let eta = row.cells.eta.unwrap_or(RESTITUTION);
             let eta = Restitution::constant(eta)?;
             Ok(Object {
+                id: row.id.to_string(),
+                notes: notes(&row),
+                position_m: row.position_m,
                 friction: row.cells.friction,
                 limit_ratio: row.cells.limit_ratio,
                 floor: row.cells.floor.zip(floor).map(|(name, floor)| {
                     NamedFloor { name: name.to_string(), floor }
                 }),
-                ..Object::new(&row.id.to_string(), row.block, eta)
+                ..Object::new(&row.label, row.block, eta)
             })
         };
         rows.into_iter().zip(floors).map(object).collect()
@@ -246,4 +253,14 @@ impl AssessCommand {
         let [ordinary, _] = StudySuite::embedded()?;
         Ok(ordinary)
     }
+}
+
+/// The further columns of a row, and whether its depth counts as the width.
+fn notes(row: &BlockRow) -> Vec<(String, String)> {
+    let mut notes = row.notes.clone();
+    if row.depth_governs {
+        let words = "the depth, its shorter side".to_owned();
+        notes.push(("width:".to_owned(), words));
+    }
+    notes
 }

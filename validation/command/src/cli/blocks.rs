@@ -1,40 +1,33 @@
 //! The table of blocks: CSV, one row a block, the same for all commands.
 
 use std::collections::BTreeMap;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use rocking::block::{Block, Restitution};
+use csv::{ReaderBuilder, StringRecord};
+use rocking::accelerogram::{EXPECTED, result_name};
+use rocking::block::Block;
 use rocking_exchange::Id;
-use rocking_exchange::read::{no_csv, reader};
-use serde::Deserialize;
+use rocking_exchange::columns::BLOCKS;
+use rocking_exchange::read::{Closed, no_csv};
 
 use crate::failure::{AtPlace as _, Failure, bail, ensure};
 use crate::input;
 
-/// The columns that a table of blocks has.
-const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
-                        height_m, and where wanted id, eta, sample, \
-                        friction, limit_ratio and floor";
+/// The most faults that a message lists.
+const MOST_FAULTS: usize = 20;
 
-/// The cells of a row; `None` for an empty one.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// The cells of a row beside names and sizes; `None` for an empty one.
+#[derive(Clone, Debug, Default)]
 pub struct BlockCells {
-    id: Option<Id>,
-    alpha: Option<f64>,
-    p: Option<f64>,
-    width_m: Option<f64>,
-    height_m: Option<f64>,
     /// Coefficient of restitution.
     pub eta: Option<f64>,
-    sample: Option<String>,
     /// Coefficient of friction of the floor.
     pub friction: Option<f64>,
     /// Rotation over slenderness that must not be exceeded.
     pub limit_ratio: Option<f64>,
     /// The floor of the building; `None` for the ground.
-    pub floor: Option<Id>,
+    pub floor: Option<String>,
 }
 
 /// A row of the table.
@@ -42,31 +35,51 @@ pub struct BlockCells {
 pub struct BlockRow {
     /// File and line.
     pub place: String,
-    /// The name, by default made of alpha and p.
+    /// The name for people, by default `id`.
+    pub label: String,
+    /// The name in files, by default made of the label, or of alpha and p.
     pub id: Id,
     /// The block.
     pub block: Block,
+    /// Whether the width of the block is the depth of the object, which
+    /// overturns about the shorter side of its base.
+    pub depth_governs: bool,
+    /// Position in the room in m.
+    pub position_m: Option<(f64, f64)>,
     /// Its own sample files beside the table, one a limit state.
     pub samples: Vec<PathBuf>,
     /// Its other cells.
     pub cells: BlockCells,
+    /// Cells of columns without a meaning, with their heads, in order.
+    pub notes: Vec<(String, String)>,
+    /// Whether a number has a decimal comma.
+    pub decimal_commas: bool,
 }
 
 impl BlockRow {
     /// A block that is not from a table.
     pub fn of(id: Id, block: Block) -> Self {
-        let (samples, cells) = (Vec::new(), BlockCells::default());
-        Self { place: id.to_string(), id, block, samples, cells }
+        Self {
+            place: id.to_string(),
+            label: id.to_string(),
+            id,
+            block,
+            depth_governs: false,
+            position_m: None,
+            samples: Vec::new(),
+            cells: BlockCells::default(),
+            notes: Vec::new(),
+            decimal_commas: false,
+        }
     }
 }
 
-/// Reads a table with the columns `alpha,p` (rad, rad/s) or
-/// `width_m,height_m`, and where wanted `id`, `eta`, `sample` with files
-/// separated by `;`, `friction`, `limit_ratio` and `floor`.
+/// Reads a table with the columns of [`BLOCKS`]; other columns are notes.
 ///
 /// # Errors
-/// [`Failure`] with the line for another column, a cell of another form, a
-/// block out of range, a name that comes again, and no row at all.
+/// [`Failure`] with all faults, each with its line: a column that is nearly a
+/// known one, a cell of another form, a block out of range, a label that comes
+/// again; and for no row at all.
 pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<BlockRow>, Failure> {
     parse(input::open(path)?, path, gravity_m_s2)
 }
@@ -81,50 +94,215 @@ pub fn parse(
     gravity_m_s2: f64,
 ) -> Result<Vec<BlockRow>, Failure> {
     let place = path.display();
-    let mut reader = reader(from, csv::Trim::All, None);
-    let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut rows: Vec<BlockRow> = Vec::new();
-    let mut ids = BTreeMap::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| no_csv(path, e))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let place = format!("{place}:{line}");
-        let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let mut cells: BlockCells = record
-            .deserialize(Some(&header))
-            .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
-        let block = match (cells.alpha, cells.p, cells.width_m, cells.height_m)
-        {
-            (Some(alpha), Some(p), None, None) => Block::try_new(alpha, p),
-            (None, None, Some(width_m), Some(height_m)) => {
-                Block::from_dimensions(width_m, height_m, gravity_m_s2)
-            }
-            _ => bail!("{place}: expected {EXPECTED}"),
-        };
-        let block = block.at(&place)?;
-        if let Some(eta) = cells.eta {
-            Restitution::constant(eta).at(&place)?;
-        }
-        let id =
-            cells.id.take().map_or_else(|| Id::of(&block), Ok).map_err(at)?;
-        if let Some(before) = ids.insert(id.clone(), line) {
-            bail!(
-                "{place}: {id} is already on line {before}: expected a \
-                 unique id"
-            );
-        }
-        let samples = cells.sample.take().map_or(Vec::new(), |names| {
-            names.split(';').map(|name| folder.join(name.trim())).collect()
-        });
-        let mu = cells.friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
-        if let Some(mu) = mu {
-            bail!("{place}: friction {mu}: expected a positive number");
-        }
-        rows.push(BlockRow { place, id, block, samples, cells });
+    let text = io::read_to_string(from);
+    let text = text.at(format_args!("{place}: expected CSV in UTF-8"))? + "\n";
+    let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n");
+    let header = text.trim_start().lines().next().unwrap_or_default();
+    let [comma, semi, tab] = [',', ';', '\t'].map(|c| header.contains(c));
+    ensure!(comma || semi || !tab, "{place}: tabs: expected commas");
+    let separator = if semi && !comma { b';' } else { b',' };
+    let mut csv = ReaderBuilder::new();
+    let csv = csv.delimiter(separator).flexible(true);
+    let mut csv =
+        csv.from_reader(Closed::new(text.as_bytes(), None, separator));
+    let header = csv.headers().map_err(|e| no_csv(path, e))?;
+    let mut table = BlockTable::of(place.to_string(), separator, header);
+    let mut rows = Vec::new();
+    while csv.read_record(&mut table.record).map_err(|e| no_csv(path, e))? {
+        // The reader is at the line below the row.
+        let within = table.record.as_slice().matches('\n').count();
+        table.line = csv.position().line() - 1 - within as u64;
+        let row = table.row(path, gravity_m_s2);
+        rows.extend(row);
     }
+    let more = table.faults.saturating_sub(MOST_FAULTS);
+    table.listed.extend((more > 0).then(|| format!("and {more} more")));
+    ensure!(table.listed.is_empty(), "{}", table.listed.join("\n"));
     ensure!(!rows.is_empty(), "{place}: no block");
+    Id::distinguish(rows.iter_mut().map(|row| &mut row.id));
     Ok(rows)
+}
+
+/// What a column should be, if its name is nearly a known one.
+fn nearest(name: &str) -> Option<String> {
+    let stem = name.split('_').next()?;
+    if ["width", "height", "depth"].contains(&stem) {
+        return Some(format!("{stem}_m, {stem}_cm or {stem}_mm"));
+    }
+    let near = BLOCKS.names().find(|own| {
+        // Any letter is near p, and distances of long texts take memory.
+        let most = [0, 0, 0, 1, 1, 1].get(own.len()).copied().unwrap_or(2);
+        own.len().abs_diff(name.len()) <= most
+            && strsim::damerau_levenshtein(own, name) <= most
+    });
+    near.map(|own| format!("{own}, or another name"))
+}
+
+/// Words for the numbers that a cell may have, and which these are.
+type Range = (&'static str, fn(f64) -> bool);
+
+const ANY: Range = ("a number", |_| true);
+const POSITIVE: Range = ("a positive number", |x| x > 0.0);
+const RATIO: Range = ("a number between 0 and 1", |x| x > 0.0 && x < 1.0);
+const ETA: Range = ("a number in (0, 1]", |x| x > 0.0 && x <= 1.0);
+
+/// A table that is read row by row, and its faults.
+#[derive(Default)]
+struct BlockTable {
+    place: String,
+    separator: u8,
+    /// Names of known columns, and heads of notes.
+    columns: Vec<String>,
+    record: StringRecord,
+    /// Line of the record, from 1.
+    line: u64,
+    /// Whether a number of the record has a decimal comma.
+    decimal_commas: bool,
+    /// Lines of the labels, and of the texts of which ids are made.
+    names: [BTreeMap<String, u64>; 2],
+    faults: usize,
+    /// The first of them.
+    listed: Vec<String>,
+}
+
+impl BlockTable {
+    fn of(place: String, separator: u8, header: &StringRecord) -> Self {
+        let mut table = Self { place, separator, line: 1, ..Self::default() };
+        table.columns.reserve_exact(header.len());
+        for head in header {
+            // Each row has a copy.
+            let head = format!("{:.64}", head.trim().replace('\n', " "));
+            // Capitals, blanks and brackets are no part of a name.
+            let name = Id::of_label(&head).map(|id| id.to_string());
+            let name = name.unwrap_or_default().to_lowercase();
+            let name = if name == "name" { "label".into() } else { name };
+            let is_known = BLOCKS.names().any(|own| own == name)
+                && !table.columns.contains(&name);
+            if !is_known && let Some(expected) = nearest(&name) {
+                table.fault(&format!("column {head}"), &expected);
+            }
+            table.columns.push(if is_known { name } else { head });
+        }
+        table
+    }
+
+    fn fault(&mut self, found: &str, expected: &str) {
+        self.faults += 1;
+        if self.faults <= MOST_FAULTS {
+            let place = format!("{}:{}", self.place, self.line);
+            self.listed.push(format!("{place}: {found}: expected {expected}"));
+        }
+    }
+
+    /// The text of a cell; none if it is empty or the table lacks the column.
+    fn text(&self, column: &str) -> Option<String> {
+        let place = self.columns.iter().position(|own| own == column)?;
+        let text = self.record[place].trim().replace('\n', " ");
+        (!text.is_empty()).then_some(text)
+    }
+
+    /// A text that results can contain.
+    fn name(&mut self, column: &str) -> Option<String> {
+        let text = self.text(column)?;
+        if result_name(&text).is_err() {
+            self.fault(&format!("{column} is \"{text:.64}\""), EXPECTED);
+        }
+        Some(text)
+    }
+
+    fn number(&mut self, column: &str, range: Range) -> Option<f64> {
+        let text = self.text(column)?;
+        let [point, whole] = [".", ""].map(|to| text.replacen(',', to, 1));
+        let is_thousands = self.separator == b','
+            && text.rfind(',').is_some_and(|at| at + 4 == text.len())
+            && !text.starts_with("0,");
+        let expected = match point.parse::<f64>() {
+            Err(_) => "a number with a decimal point, such as 0.16",
+            Ok(_) if is_thousands => &format!("{whole} or {point}"),
+            Ok(x) if x.is_finite() && range.1(x) => {
+                self.decimal_commas |= text.contains(',');
+                return Some(x);
+            }
+            Ok(_) => range.0,
+        };
+        self.fault(&format!("{column} is \"{text:.64}\""), expected);
+        None
+    }
+
+    /// The row; `None` for one with faults, or without cells.
+    fn row(&mut self, path: &Path, gravity_m_s2: f64) -> Option<BlockRow> {
+        let (found, expected) = (self.record.len(), self.columns.len());
+        if self.record.as_slice().trim().is_empty() {
+            return None;
+        }
+        if found != expected {
+            self.fault(&format!("{found} cells"), &expected.to_string());
+            return None;
+        }
+        self.decimal_commas = false;
+        let before = self.faults;
+        let [alpha, p] = ["alpha", "p"].map(|c| self.number(c, POSITIVE));
+        let sides = ["width", "height", "depth"].map(|side| {
+            let units = [("m", 1.0), ("cm", 1e2), ("mm", 1e3)].into_iter();
+            let given = units.filter_map(|(unit, in_metre)| {
+                let column = format!("{side}_{unit}");
+                Some(self.number(&column, POSITIVE)? / in_metre)
+            });
+            given.collect::<Vec<f64>>()
+        });
+        let block = match (alpha, p, sides.each_ref().map(Vec::as_slice)) {
+            (Some(a), Some(p), [[], [], []]) => Block::try_new(a, p).ok(),
+            (None, None, [[w], [h], d @ ([] | [_])]) => {
+                let width_m = d.first().unwrap_or(w).min(*w);
+                Block::from_dimensions(width_m, *h, gravity_m_s2).ok()
+            }
+            _ => None,
+        };
+        if block.is_none() && self.faults == before {
+            self.fault("size", "width and height, or alpha below pi/2 and p");
+        }
+        let cells = BlockCells {
+            eta: self.number("eta", ETA),
+            friction: self.number("friction", POSITIVE),
+            limit_ratio: self.number("limit_ratio", RATIO),
+            floor: self.name("floor"),
+        };
+        let [x, y] = ["x_m", "y_m"].map(|column| self.number(column, ANY));
+        if self.text("x_m").is_some() != self.text("y_m").is_some() {
+            self.fault("x_m or y_m is empty", "both or neither");
+        }
+        let numbered: Id = format!("object_{}", self.line).parse().ok()?;
+        let own = block.map(|own| Id::of(&own).unwrap_or(numbered.clone()));
+        let [id, label] = ["id", "label"].map(|column| self.name(column));
+        let label = label.or(id.clone()).or(own.map(|own| own.to_string()))?;
+        let name = id.unwrap_or(label.clone());
+        for (k, text) in [&label, &name].into_iter().enumerate() {
+            if let Some(line) = self.names[k].insert(text.clone(), self.line) {
+                let found = format!("{text} is already on line {line}");
+                self.fault(&found, ["a unique label", "a unique id"][k]);
+                break;
+            }
+        }
+        let samples = self.text("sample").unwrap_or_default();
+        let samples = samples.split(';').filter(|name| !name.is_empty());
+        let samples = samples.map(|name| path.with_file_name(name.trim()));
+        let notes = self.columns.iter().zip(&self.record);
+        let notes = notes.filter(|(own, cell)| {
+            BLOCKS.names().all(|n| n != **own) && !cell.trim().is_empty()
+        });
+        let notes = notes.map(|(own, cell)| (own.clone(), cell.trim().into()));
+        Some(BlockRow {
+            place: format!("{}:{}", self.place, self.line),
+            label,
+            depth_governs: matches!((&*sides[0], &*sides[2]), ([w], [d]) if d < w),
+            position_m: x.zip(y),
+            samples: samples.collect(),
+            cells,
+            notes: notes.collect(),
+            decimal_commas: self.decimal_commas,
+            ..BlockRow::of(Id::of_label(&name).unwrap_or(numbered), block?)
+        })
+    }
 }
 
 /// Reads a table of blocks that all stand on the ground.
@@ -144,3 +322,6 @@ pub fn on_ground(
     }
     Ok(rows)
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-use rocking_exchange::Id;
 use rocking_exchange::read::{no_csv, reader};
 use rocking_records::floor::Floor;
 use serde::Deserialize;
@@ -20,7 +19,7 @@ const EXPECTED: &str = "name, and numbers in the columns period_s, damping \
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FloorCells {
-    name: Id,
+    name: String,
     period_s: f64,
     damping: f64,
     height_ratio: f64,
@@ -32,7 +31,7 @@ struct FloorCells {
 /// # Errors
 /// [`Failure`] with the line for another column, a cell of another form, a
 /// floor out of range, a name that comes again, and no row at all.
-pub fn read(path: &Path) -> Result<BTreeMap<Id, Floor>, Failure> {
+pub fn read(path: &Path) -> Result<BTreeMap<String, Floor>, Failure> {
     parse(input::open(path)?, path)
 }
 
@@ -43,7 +42,7 @@ pub fn read(path: &Path) -> Result<BTreeMap<Id, Floor>, Failure> {
 pub fn parse(
     from: impl Read,
     path: &Path,
-) -> Result<BTreeMap<Id, Floor>, Failure> {
+) -> Result<BTreeMap<String, Floor>, Failure> {
     let place = path.display();
     let mut reader = reader(from, csv::Trim::All, None);
     let header = reader.headers().map_err(|e| no_csv(path, e))?.clone();
@@ -56,6 +55,7 @@ pub fn parse(
             record.deserialize(Some(&header)).map_err(|e| {
                 Failure::input(format!("{place}: {e}: expected {EXPECTED}"))
             })?;
+        ensure!(!name.is_empty(), "{place}: no name: expected {EXPECTED}");
         let floor = Floor::try_new(period_s, damping, height_ratio);
         ensure!(
             floors.insert(name.clone(), floor.at(&place)?).is_none(),
@@ -90,7 +90,7 @@ pub fn of_rows(
         let Some(name) = &row.cells.floor else { return Ok(None) };
         let found = floors.get(name).copied();
         found.map(Some).ok_or_else(|| {
-            let names: Vec<_> = floors.keys().map(Id::to_string).collect();
+            let names: Vec<_> = floors.keys().cloned().collect();
             let expected = match path {
                 None => "--floors with a table that has it".to_owned(),
                 Some(path) => {

@@ -229,7 +229,8 @@ impl BootstrapFits {
             let s = drawn(&error.dispersion, v, Range::Real);
             let s = if s < MODEL_DISPERSION.0 { 0.0 } else { s };
             *fitted = fitted.and_then(|own| {
-                TotalFragility::of_draw(*own.records(), bias, s).ok()
+                let total = TotalFragility::try_new(*own.records(), bias, s);
+                total.ok().map(TotalFragility::of_draw)
             });
         }
         self.basis.model_error = Some(*error);

@@ -220,17 +220,15 @@ impl BootstrapFits {
     /// draws if they have a model error; without intervals by the delta
     /// method.
     pub fn band(&self, fitted: &TotalFragility, intensities: &[f64]) -> Band {
-        let drawn: Vec<Parts> = match self.basis.model_error {
-            Some(_) => {
-                self.fitted.iter().flatten().map(|f| f.parts()).collect()
-            }
-            None => Vec::new(),
-        };
+        let drawn = self.fitted.iter().flatten();
+        let drawn: Vec<Parts> = drawn.map(TotalFragility::parts).collect();
         let point = |&intensity: &f64| {
             let score = |fit: &TotalFragility| fit.score(intensity);
             let probability = if self.basis.model_error.is_some() {
                 let value = fitted.cdf(intensity);
-                let between = self.between_draws(value, intensity, &drawn);
+                let all = drawn.iter().map(|fit| fit.cdf(intensity));
+                let between =
+                    self.between_draws(value, &all.collect::<Vec<_>>());
                 between.unwrap_or(Estimate::exact(value))
             } else {
                 let own = self.estimate(score(fitted), Range::Real, score);
@@ -248,23 +246,16 @@ impl BootstrapFits {
     /// The American Statistician 69 (2015) 371). Near the onset of rocking the
     /// scores of draws with and without a dispersion of the model lie so far
     /// apart that they have no useful standard error.
-    fn between_draws(
-        &self,
-        value: f64,
-        intensity: f64,
-        drawn: &[Parts],
-    ) -> Option<Estimate> {
+    fn between_draws(&self, value: f64, all: &[f64]) -> Option<Estimate> {
         let clusters = &self.basis.drawn;
         let effective = clusters.effective();
         let t = clusters.student(self.basis.level)?;
         let tail =
             normal::survival(t * (effective / (effective - 1.0)).sqrt());
-        let all: Vec<f64> =
-            drawn.iter().map(|fit| fit.cdf(intensity)).collect();
         if !(clusters.count() > 2 && 10 * all.len() > 9 * self.fitted.len()) {
             return None;
         }
-        let sample = Sample::try_new(&all).ok()?;
+        let sample = Sample::try_new(all).ok()?;
         let [low, high] = [tail, 1.0 - tail]
             .map(|p| QuantileType::default().quantile(&sample, p));
         let (low, high) = (low.ok()?.min(value), high.ok()?.max(value));

@@ -74,7 +74,7 @@ fn at_equal_scores(
 ) -> Vec<(f64, f64)> {
     let place = |z: f64| (fragility.at_score(z), normal::cdf(z));
     let step = 2.0 * last / f64::from(intervals);
-    let shift = fragility.closed().map_or(0.0, |law| law.shift());
+    let shift = fragility.total.closed().map_or(0.0, |law| law.shift());
     let mut found = vec![(shift, 0.0)];
     let mut add = |(x, p): (f64, f64)| {
         // Two scores may be closer than the resolution of doubles.

@@ -206,10 +206,10 @@ impl HazardCurve {
         let of = |law: &Lognormal| {
             // The frequency is at least H_n times the probability of damage
             // below x_n and the median; weaker motions add H_1 F at most.
-            let to = |own: &Segment| own.scores(law).1;
-            let least = segments.last().map_or(0.0, to).min(0.0) + nothing;
-            let own = segments.iter().filter(|own| to(own) > least);
-            own.fold(0.0, |sum, own| sum + own.integral(law))
+            let end = segments.last().map_or(0.0, |own| own.scores(law).1);
+            let least = (end.min(0.0) + nothing).max(-LAST_SCORE);
+            let of = |own: &Segment| own.integral(law, least);
+            segments.iter().map(of).sum()
         };
         let first_probability = fragility.cdf(first.0);
         let low = first_probability * first.1 + fragility.mean_of(of);
@@ -251,7 +251,7 @@ impl HazardCurve {
                 from_im: own.from.0,
                 to_im: own.to.0,
                 annual_frequency: ends
-                    + fragility.mean_of(|law| own.integral(law)),
+                    + fragility.mean_of(|law| own.integral(law, -LAST_SCORE)),
             }
         };
         self.segments().iter().map(one).collect()
@@ -312,13 +312,14 @@ impl Segment {
         (score(self.from.0, self.logs.0), score(self.to.0, self.logs.1))
     }
 
-    /// Integral of H dF over the segment.
-    fn integral(&self, fragility: &Lognormal) -> f64 {
+    /// Integral of H dF over the segment from the score `least` on.
+    fn integral(&self, fragility: &Lognormal, least: f64) -> f64 {
         stop::point();
         let (shift, beta) = (fragility.shift(), fragility.dispersion());
-        let (from, to) = within(self.scores(fragility));
+        let (from, to) = self.scores(fragility);
+        let (from, to) = (from.max(least), to.min(CERTAIN));
         // Above the median H is below that of the median.
-        if !(to > from && from < CERTAIN) {
+        if !(to > from) {
             return 0.0;
         }
         let drop = self.k * beta;
@@ -344,8 +345,8 @@ impl Segment {
             let share = f64::from(part) / parts;
             let high = (self.from.0 * exp(share * log(ratio))).min(self.to.0);
             let high = if share < 1.0 { high } else { self.to.0 };
-            let score = |x| fragility.score(x);
-            let (from, to) = within((score(low), score(high)));
+            let from = fragility.score(low).max(from);
+            let to = fragility.score(high).min(to);
             if to > from {
                 sum += self.quadrature(fragility, (from, to));
             }
@@ -354,8 +355,8 @@ impl Segment {
         sum
     }
 
-    /// Integral of H dF between two scores, by Gauss and Legendre: 304 pieces
-    /// at most, since no score lies beyond [`LAST_SCORE`].
+    /// Integral of H dF between two scores, by Gauss and Legendre: 188 pieces
+    /// at most, from -[`LAST_SCORE`] to [`CERTAIN`].
     fn quadrature(
         &self,
         fragility: &Lognormal,
@@ -377,11 +378,6 @@ impl Segment {
         };
         half * (0..pieces as u32).fold(0.0, |sum, k| sum + piece(k))
     }
-}
-
-/// Two scores, none beyond [`LAST_SCORE`].
-fn within((from, to): (f64, f64)) -> (f64, f64) {
-    (from.max(-LAST_SCORE), to.min(LAST_SCORE))
 }
 
 #[cfg(test)]

@@ -72,17 +72,15 @@ pub struct TotalFragility {
 
 /// A lognormal without a shift, one of those whose mean a total is.
 struct Part {
-    /// Density of its score.
-    density: f64,
-    /// Sum of the densities up to this one.
+    weight: f64,
+    /// Sum of the weights up to this one.
     sum: f64,
     log_median: f64,
 }
 
 /// A total with its parts, computed once for many intensities.
 pub(crate) struct Parts {
-    total: TotalFragility,
-    step: f64,
+    pub(super) total: TotalFragility,
     /// None if the total is lognormal; the medians rise.
     parts: Vec<Part>,
 }
@@ -90,14 +88,9 @@ pub(crate) struct Parts {
 impl From<Lognormal> for TotalFragility {
     /// A fragility without an error of the model.
     fn from(records: Lognormal) -> Self {
-        Self {
-            records,
-            bias: 1.0,
-            dispersion: 0.0,
-            biased: records,
-            closed: Some(records),
-            fineness: &EXACT,
-        }
+        let (biased, bias, dispersion) = (records, 1.0, 0.0);
+        let (closed, fineness) = (Some(records), &EXACT);
+        Self { records, bias, dispersion, biased, closed, fineness }
     }
 }
 
@@ -130,19 +123,10 @@ impl TotalFragility {
     /// The total in a draw, of which five digits are enough.
     ///
     /// From four standard deviations below the median to three above,
-    /// probabilities and quantiles differ from those of
-    /// [`TotalFragility::try_new`] by at most 2e-6 of their value, and so do
-    /// annual frequencies.
-    ///
-    /// # Errors
-    /// As [`TotalFragility::try_new`].
-    pub(crate) fn of_draw(
-        records: Lognormal,
-        bias: f64,
-        dispersion: f64,
-    ) -> Result<Self, LognormalError> {
-        let exact = Self::try_new(records, bias, dispersion)?;
-        Ok(Self { fineness: &DRAW, ..exact })
+    /// probabilities and quantiles differ from the exact ones by at most 2e-6
+    /// of their value, and so do annual frequencies.
+    pub(crate) fn of_draw(exact: Self) -> Self {
+        Self { fineness: &DRAW, ..exact }
     }
 
     /// The law of the records.
@@ -175,12 +159,13 @@ impl TotalFragility {
             let mut sum = 0.0;
             for k in -last..=last {
                 let z = step * f64::from(k);
-                let (density, log_median) = (pdf(z), log(own.at_score(z)));
-                sum += density;
-                parts.push(Part { density, sum, log_median });
+                let (weight, log_median) =
+                    (step * pdf(z), log(own.at_score(z)));
+                sum += weight;
+                parts.push(Part { weight, sum, log_median });
             }
         }
-        Parts { total: *self, step, parts }
+        Parts { total: *self, parts }
     }
 
     /// The distribution function, a fragility's value at intensity x.
@@ -226,22 +211,16 @@ impl TotalFragility {
 }
 
 impl Parts {
-    /// The total itself, if it is lognormal.
-    pub(super) fn closed(&self) -> Option<Lognormal> {
-        self.total.closed
-    }
-
     /// The mean of a function that is linear in the law. A part whose median
     /// is infinite adds nothing.
     pub(super) fn mean_of(&self, of: impl Fn(&Lognormal) -> f64) -> f64 {
-        if let Some(law) = self.closed() {
+        if let Some(law) = self.total.closed {
             return of(&law);
         }
         self.parts.iter().fold(0.0, |sum, one| {
             let s = self.total.dispersion;
-            Lognormal::try_new(0.0, one.log_median, s).map_or(sum, |law| {
-                f64::mul_add(self.step * one.density, of(&law), sum)
-            })
+            Lognormal::try_new(0.0, one.log_median, s)
+                .map_or(sum, |law| f64::mul_add(one.weight, of(&law), sum))
         })
     }
 
@@ -254,16 +233,14 @@ impl Parts {
             |least: f64| self.parts.partition_point(|one| score(one) > least);
         let (from, to) = (up_to(CERTAIN), up_to(-CERTAIN));
         let below = from.checked_sub(1).map_or(0.0, |k| self.parts[k].sum);
-        let near =
-            self.parts[from..to].iter().fold(far * below, |sum, one| {
-                f64::mul_add(one.density, of(score(one)), sum)
-            });
-        self.step * near
+        self.parts[from..to].iter().fold(far * below, |sum, one| {
+            f64::mul_add(one.weight, of(score(one)), sum)
+        })
     }
 
     /// The distribution function.
     pub(crate) fn cdf(&self, x: f64) -> f64 {
-        match self.closed() {
+        match self.total.closed {
             Some(law) => law.cdf(x),
             None if x > 0.0 => self.mean(x, 1.0, normal::cdf).min(1.0),
             None => 0.0,
@@ -272,29 +249,31 @@ impl Parts {
 
     /// The survival function.
     pub(super) fn survival(&self, x: f64) -> f64 {
-        self.closed().map_or_else(|| 1.0 - self.cdf(x), |law| law.survival(x))
+        self.total
+            .closed
+            .map_or_else(|| 1.0 - self.cdf(x), |law| law.survival(x))
     }
 
     fn score(&self, x: f64) -> f64 {
         let of = || normal::quantile(self.cdf(x));
-        self.closed().map_or_else(of, |law| law.score(x))
+        self.total.closed.map_or_else(of, |law| law.score(x))
     }
 
     /// The logarithm of the density.
     pub(super) fn ln_pdf(&self, x: f64) -> f64 {
         let s = self.total.dispersion;
         let of = || log(self.mean(x, 0.0, pdf) / (x * s));
-        self.closed().map_or_else(of, |law| law.ln_pdf(x))
+        self.total.closed.map_or_else(of, |law| law.ln_pdf(x))
     }
 
     /// The intensity of a normal score.
     pub(super) fn at_score(&self, z: f64) -> f64 {
         let of = || self.quantile(normal::cdf(z));
-        self.closed().map_or_else(of, |law| law.at_score(z))
+        self.total.closed.map_or_else(of, |law| law.at_score(z))
     }
 
     fn quantile(&self, p: f64) -> f64 {
-        if let Some(law) = self.closed() {
+        if let Some(law) = self.total.closed {
             return law.quantile(p);
         }
         if !(p > 0.0 && p < 1.0) {
@@ -340,7 +319,7 @@ impl Parts {
     pub(super) fn mode_score(&self) -> f64 {
         let density = |z: f64| self.ln_pdf(self.at_score(z));
         let of = || golden(density, -8.0, 8.0);
-        self.closed().map_or_else(of, |law| -law.dispersion())
+        self.total.closed.map_or_else(of, |law| -law.dispersion())
     }
 }
 
@@ -382,7 +361,7 @@ mod tests {
                     let own = Lognormal::try_new(shift, log_mean, beta);
                     let own = own.unwrap();
                     let exact = TotalFragility::try_new(own, 1.2, s).unwrap();
-                    let draw = TotalFragility::of_draw(own, 1.2, s).unwrap();
+                    let draw = TotalFragility::of_draw(exact);
                     let draw = draw.scaled(3.0).unwrap();
                     let draw = draw.scaled(1.0 / 3.0).unwrap();
                     let mut hold = |kind: usize, found: f64, right: f64| {

@@ -61,11 +61,12 @@ impl Oscillator {
         let mut states = Vec::with_capacity(count);
         let mut state = from;
         states.push(state);
+        let mut b = self.at(samples, 0);
         for i in 1..count {
             if i % LOOK == 0 {
                 stop::point();
             }
-            let (a, b) = (self.at(samples, i - 1), self.at(samples, i));
+            let a = std::mem::replace(&mut b, self.at(samples, i));
             let input = [state[0], state[1], a, b - a];
             state = self.transition.map(|row| {
                 row.iter().zip(input).fold(0.0, |s, (c, x)| c.mul_add(x, s))

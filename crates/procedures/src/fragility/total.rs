@@ -72,8 +72,9 @@ pub struct TotalFragility {
 
 /// A lognormal without a shift, one of those whose mean a total is.
 struct Part {
-    weight: f64,
-    /// Sum of the weights up to this one.
+    /// Density of its score.
+    density: f64,
+    /// Sum of the densities up to this one.
     sum: f64,
     log_median: f64,
 }
@@ -81,6 +82,7 @@ struct Part {
 /// A total with its parts, computed once for many intensities.
 pub(crate) struct Parts {
     pub(super) total: TotalFragility,
+    step: f64,
     /// None if the total is lognormal; the medians rise.
     parts: Vec<Part>,
 }
@@ -159,13 +161,12 @@ impl TotalFragility {
             let mut sum = 0.0;
             for k in -last..=last {
                 let z = step * f64::from(k);
-                let (weight, log_median) =
-                    (step * pdf(z), log(own.at_score(z)));
-                sum += weight;
-                parts.push(Part { weight, sum, log_median });
+                let (density, log_median) = (pdf(z), log(own.at_score(z)));
+                sum += density;
+                parts.push(Part { density, sum, log_median });
             }
         }
-        Parts { total: *self, parts }
+        Parts { total: *self, step, parts }
     }
 
     /// The distribution function, a fragility's value at intensity x.
@@ -219,8 +220,9 @@ impl Parts {
         }
         self.parts.iter().fold(0.0, |sum, one| {
             let s = self.total.dispersion;
-            Lognormal::try_new(0.0, one.log_median, s)
-                .map_or(sum, |law| f64::mul_add(one.weight, of(&law), sum))
+            Lognormal::try_new(0.0, one.log_median, s).map_or(sum, |law| {
+                f64::mul_add(self.step * one.density, of(&law), sum)
+            })
         })
     }
 
@@ -233,9 +235,11 @@ impl Parts {
             |least: f64| self.parts.partition_point(|one| score(one) > least);
         let (from, to) = (up_to(CERTAIN), up_to(-CERTAIN));
         let below = from.checked_sub(1).map_or(0.0, |k| self.parts[k].sum);
-        self.parts[from..to].iter().fold(far * below, |sum, one| {
-            f64::mul_add(one.weight, of(score(one)), sum)
-        })
+        let near = self.parts[from..to].iter();
+        self.step
+            * near.fold(far * below, |sum, one| {
+                f64::mul_add(one.density, of(score(one)), sum)
+            })
     }
 
     /// The distribution function.

@@ -470,7 +470,7 @@ pub(crate) fn parts(found: &Assessment, one: &ObjectAssessment) -> WordTable {
 /// The text for the terminal: the answer, the tables, and the effect of
 /// recorded motions.
 pub fn text(found: &Assessment) -> String {
-    let mut text = format!("{} {}\n", first(found), held(found));
+    let mut text = format!("{}\n\n{}\n", first(found), held(found));
     for remark in &found.remarks {
         text += &format!("Note: {remark}.\n");
     }

@@ -119,7 +119,12 @@ pub fn parse(
     table.listed.extend((more > 0).then(|| format!("and {more} more")));
     ensure!(table.listed.is_empty(), "{}", table.listed.join("\n"));
     ensure!(!rows.is_empty(), "{place}: no block");
-    Id::distinguish(rows.iter_mut().map(|row| &mut row.id));
+    // An id that is derived differs from all that are given.
+    let given = &table.names[1];
+    let ids = rows.iter_mut().map(|row: &mut BlockRow| &mut row.id);
+    let (own, derived): (Vec<_>, Vec<_>) =
+        ids.partition(|id| given.contains_key(&id.to_string()));
+    Id::distinguish(own.into_iter().chain(derived));
     Ok(rows)
 }
 
@@ -130,7 +135,8 @@ fn nearest(name: &str) -> Option<String> {
         return Some(format!("{stem}_m, {stem}_cm or {stem}_mm"));
     }
     let near = BLOCKS.names().find(|own| {
-        // Any letter is near p, and distances of long texts take memory.
+        // A short name is near many others, and the distance of a long one
+        // takes memory.
         let most = [0, 0, 0, 1, 1, 1].get(own.len()).copied().unwrap_or(2);
         own.len().abs_diff(name.len()) <= most
             && strsim::damerau_levenshtein(own, name) <= most
@@ -139,12 +145,12 @@ fn nearest(name: &str) -> Option<String> {
 }
 
 /// Words for the numbers that a cell may have, and which these are.
-type Range = (&'static str, fn(f64) -> bool);
+type Fits = (&'static str, fn(f64) -> bool);
 
-const ANY: Range = ("a number", |_| true);
-const POSITIVE: Range = ("a positive number", |x| x > 0.0);
-const RATIO: Range = ("a number between 0 and 1", |x| x > 0.0 && x < 1.0);
-const ETA: Range = ("a number in (0, 1]", |x| x > 0.0 && x <= 1.0);
+const ANY: Fits = ("a number", |_| true);
+const POSITIVE: Fits = ("a positive number", |x| x > 0.0);
+const RATIO: Fits = ("a number between 0 and 1", |x| x > 0.0 && x < 1.0);
+const ETA: Fits = ("a number in (0, 1]", |x| x > 0.0 && x <= 1.0);
 
 /// A table that is read row by row, and its faults.
 #[derive(Default)]
@@ -153,6 +159,8 @@ struct BlockTable {
     separator: u8,
     /// Names of known columns, and heads of notes.
     columns: Vec<String>,
+    /// Whether the header line has a fault that leaves rows without a size.
+    lacks_length: bool,
     record: StringRecord,
     /// Line of the record, from 1.
     line: u64,
@@ -180,6 +188,7 @@ impl BlockTable {
                 && !table.columns.contains(&name);
             if !is_known && let Some(expected) = nearest(&name) {
                 table.fault(&format!("column {head}"), &expected);
+                table.lacks_length |= expected.contains("_m");
             }
             table.columns.push(if is_known { name } else { head });
         }
@@ -210,20 +219,19 @@ impl BlockTable {
         Some(text)
     }
 
-    fn number(&mut self, column: &str, range: Range) -> Option<f64> {
+    fn number(&mut self, column: &str, fits: Fits) -> Option<f64> {
         let text = self.text(column)?;
         let [point, whole] = [".", ""].map(|to| text.replacen(',', to, 1));
         let is_thousands = self.separator == b','
-            && text.rfind(',').is_some_and(|at| at + 4 == text.len())
-            && !text.starts_with("0,");
+            && matches!(text.as_bytes(), [b'1'..=b'9', .., b',', _, _, _]);
         let expected = match point.parse::<f64>() {
             Err(_) => "a number with a decimal point, such as 0.16",
             Ok(_) if is_thousands => &format!("{whole} or {point}"),
-            Ok(x) if x.is_finite() && range.1(x) => {
+            Ok(x) if x.is_finite() && fits.1(x) => {
                 self.decimal_commas |= text.contains(',');
                 return Some(x);
             }
-            Ok(_) => range.0,
+            Ok(_) => fits.0,
         };
         self.fault(&format!("{column} is \"{text:.64}\""), expected);
         None
@@ -244,9 +252,8 @@ impl BlockTable {
         let [alpha, p] = ["alpha", "p"].map(|c| self.number(c, POSITIVE));
         let sides = ["width", "height", "depth"].map(|side| {
             let units = [("m", 1.0), ("cm", 1e2), ("mm", 1e3)].into_iter();
-            let given = units.filter_map(|(unit, in_metre)| {
-                let column = format!("{side}_{unit}");
-                Some(self.number(&column, POSITIVE)? / in_metre)
+            let given = units.filter_map(|(unit, per)| {
+                Some(self.number(&format!("{side}_{unit}"), POSITIVE)? / per)
             });
             given.collect::<Vec<f64>>()
         });
@@ -258,7 +265,7 @@ impl BlockTable {
             }
             _ => None,
         };
-        if block.is_none() && self.faults == before {
+        if block.is_none() && self.faults == before && !self.lacks_length {
             self.fault("size", "width and height, or alpha below pi/2 and p");
         }
         let cells = BlockCells {
@@ -294,7 +301,7 @@ impl BlockTable {
         Some(BlockRow {
             place: format!("{}:{}", self.place, self.line),
             label,
-            depth_governs: matches!((&*sides[0], &*sides[2]), ([w], [d]) if d < w),
+            depth_governs: !sides[2].is_empty() && sides[2] < sides[0],
             position_m: x.zip(y),
             samples: samples.collect(),
             cells,

@@ -149,6 +149,20 @@ fn lengths_have_their_unit() {
     }
 }
 
+/// A fault of the header line is not repeated for each row.
+#[test]
+fn a_column_without_a_unit_is_one_fault() {
+    let row = "Kore,0.6,1.9,1.3O\n";
+    let head = "1: column height: expected height_m, height_cm or height_mm";
+    let found = faults(&format!("name,width_m,height,eta\n{row}"));
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0], head);
+    assert!(found[1].starts_with("2: eta is"), "{}", found[1]);
+    let found = faults("name,width_m,height_m,etas\nKore,0.6,,\n");
+    assert_eq!(found.len(), 2);
+    assert!(found[1].starts_with("2: size: expected"), "{}", found[1]);
+}
+
 #[test]
 fn a_position_has_two_coordinates() {
     let all = rows("alpha,p,x_m,Y_M\n0.1,3,-1.5,2\n0.2,3,,\n");

@@ -144,7 +144,7 @@ class Remedy(Result):
     tie-against-uplift."""
     size: float
     """Width in m, how much lower in m, period in s, force over weight."""
-    answer: Answer | None
+    return_period_years: Bounds | None
     """None if no size up to this one meets the target, and of a tie against
     uplift."""
     target: str | None

@@ -287,11 +287,19 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
             {
                 "suite": SUITE[4:8],
                 "model_dispersion": 0.1,
-                "model_bias": "fitted",
+                "model_bias": 1.1,
                 "hazard": rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n"),
                 "years": (
                     {"hazard": rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")},
                     30.0,
+                ),
+                "target": (
+                    {"hazard": rk.Hazard("h", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")},
+                    300.0,
+                ),
+                "sliding_share": (
+                    {"objects": rk.Object("vase", BLOCK, friction=0.1)},
+                    0.999,
                 ),
                 "certify": (
                     {
@@ -391,6 +399,8 @@ def tries(at: dict[str, Path]) -> dict[str, tuple[Callable[..., Any], Base, dict
                 "friction": 0.25,
                 "limit_ratio": 0.4,
                 "floor": rk.Floor("roof", 0.5, 0.05, 1.3),
+                "notes": {"room": "12"},
+                "position_m": (1.0, 2.0),
             },
         ),
         "Hazard": (

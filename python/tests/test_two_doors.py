@@ -60,8 +60,9 @@ def pair(procedure: str) -> Callable[[Prepare], Prepare]:
 
 @pair("assess")
 def objects_on_ground_and_floor(house: House) -> Pair:
-    lines = ["id,width_m,height_m,eta,friction,limit_ratio,floor"]
-    lines += ["stele,0.5,2.0,,0.5,,", "vase,0.2,0.7,0.9,,0.4,roof"]
+    lines = ["label,width_m,height_m,eta,friction,limit_ratio,floor,x_m,y_m,room"]
+    lines += ["Stèle,0.5,2.0,,5,,,1,2,12", "vase,0.2,0.7,0.9,,0.4,roof,,,"]
+    lines += ["crate,0.5,0.7,,0.2,,,,,"]
     objects = house.file("objects.csv", lines)
     lines = ["name,period_s,damping,height_ratio", "roof,0.5,0.05,1.3"]
     floors = house.file("floors.csv", lines)
@@ -69,19 +70,24 @@ def objects_on_ground_and_floor(house: House) -> Pair:
     hazard = house.file("site.csv", lines)
     words: list[object] = ["assess", "--objects", objects, "--floors", floors]
     words += ["--suite", house.index, "--hazard", hazard, "--bootstrap", 20]
-    words += ["--out", house.folder / "page"]
+    words += ["--target", 0.5, "--out", house.folder / "page"]
     roof = rk.Floor("roof", 0.5, 0.05, 1.3)
     sizes = [rk.Block.from_dimensions(width_m=0.5, height_m=2.0)]
     sizes += [rk.Block.from_dimensions(width_m=0.2, height_m=0.7)]
-    stele = rk.Object("stele", sizes[0], friction=0.5)
+    sizes += [rk.Block.from_dimensions(width_m=0.5, height_m=0.7)]
+    stele = rk.Object(
+        "Stèle", sizes[0], friction=5, notes={"room": "12"}, position_m=(1, 2)
+    )
+    crate = rk.Object("crate", sizes[2], friction=0.2)
     vase = rk.Object("vase", sizes[1], 0.9, limit_ratio=0.4, floor=roof)
     found = rk.assess(
-        [stele, vase],
+        [stele, vase, crate],
         house.suite,
         hazard=rk.read_hazard(hazard),
+        target=0.5,
         n_resamples=20,
     )
-    assert "Rocking of 2 objects" in found.to_html()
+    assert "Rocking of 3 objects" in found.to_html()
     return Pair(found, words, extra=("provenance",))
 
 

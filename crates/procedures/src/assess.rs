@@ -345,16 +345,13 @@ impl Answer {
     /// Annual frequency of damage in 1/year, the lower bound of truncation;
     /// none without a hazard curve.
     pub fn annual_frequency(&self) -> Option<Estimate> {
-        let risk = self.risk.as_ref()?;
-        let point = Estimate::exact(risk.annual_frequency_truncation_lower);
-        let drawn = risk.sampling.as_ref();
-        Some(drawn.map_or(point, |drawn| drawn.annual_frequency))
+        Some(self.risk.as_ref()?.annual_frequency())
     }
 
     /// Mean return period of damage in years, the reciprocal of the annual
     /// frequency; none without a hazard curve.
     pub fn return_period_years(&self) -> Option<Estimate> {
-        Some(self.annual_frequency()?.map(f64::recip))
+        Some(self.risk.as_ref()?.return_period_years())
     }
 
     /// Probability of damage in the years of the assessment; none without a

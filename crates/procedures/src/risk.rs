@@ -128,6 +128,20 @@ pub struct FragilityRisk {
     pub sampling: Option<SamplingInterval>,
 }
 
+impl FragilityRisk {
+    /// Annual frequency of damage in 1/year, the lower bound of truncation.
+    pub fn annual_frequency(&self) -> Estimate {
+        let point = Estimate::exact(self.annual_frequency_truncation_lower);
+        let drawn = self.sampling.as_ref();
+        drawn.map_or(point, |drawn| drawn.annual_frequency)
+    }
+
+    /// Mean return period of damage in years, its reciprocal.
+    pub fn return_period_years(&self) -> Estimate {
+        self.annual_frequency().map(f64::recip)
+    }
+}
+
 /// A time that is not a positive number of years.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{0} years: expected a positive number")]

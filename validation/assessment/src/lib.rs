@@ -262,13 +262,14 @@ fn remedies(found: &Assessment) -> Markup {
             section {
                 h2 { "Measures that reach the target" }
                 p {
-                    "Each measure has the least size, in steps of 1 cm or 1 % \
-                     of the weight, for which the whole interval reaches the \
-                     target. A wider base counts across the shorter side; a \
-                     lower centre of mass, such as ballast, counts as a block \
-                     of twice its height. Ties hold the top. They are \
-                     computed from the moments about the pivot, the yielding \
-                     one for small angles. Check that the object bears them."
+                    "With each measure, the whole interval reaches the \
+                     target. Sizes are close to the least ones, and rounded up \
+                     to 1 cm or 1 % of the weight. A wider base counts across \
+                     the shorter side. A lower centre of mass, such as \
+                     ballast, counts as a block of twice its height. Ties hold \
+                     the top. They are computed from the moments about the \
+                     pivot, the yielding one for small angles. Check that the \
+                     object bears them."
                 }
                 (table("Measures", &all))
             }

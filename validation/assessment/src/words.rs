@@ -50,25 +50,25 @@ fn thousands(x: f64) -> String {
 
 /// Mean return period of damage in years, with its interval; a number beyond
 /// the hazard curve is not known.
-pub(crate) fn return_period(
-    found: &Assessment,
-    answer: &Answer,
-) -> Option<String> {
-    let years = answer.return_period_years()?;
+fn years(found: &Assessment, years: &Estimate) -> String {
     let longest = found.longest_years.unwrap_or(f64::INFINITY);
     let end = |x: f64| match x <= longest {
         true => thousands(x),
         false => format!("> {}", thousands(longest)),
     };
     let low = years.interval().map_or(f64::INFINITY, Interval::low);
-    Some(match years.value() <= longest {
+    match years.value() <= longest {
         true => years.text("", end),
         false => {
             let rare = format!("rarer than 1 in {}", thousands(longest));
             let low = (low <= longest).then(|| end(low));
             rare + &low.map_or(String::new(), |x| format!(" (at least {x})"))
         }
-    })
+    }
+}
+
+fn return_period(found: &Assessment, answer: &Answer) -> Option<String> {
+    Some(years(found, &answer.return_period_years()?))
 }
 
 /// The probability of damage in T years in percent, with its interval; a
@@ -373,7 +373,7 @@ pub(crate) fn sliding(found: &Assessment) -> WordTable {
 
 /// A measure in words.
 fn measure_of(remedy: &Remedy, facts: &ObjectFacts) -> String {
-    let to = if remedy.answer.is_some() { "" } else { "up to " };
+    let to = if remedy.return_period_years.is_some() { "" } else { "up to " };
     let percent = rounded(100.0 * remedy.size, 3);
     match remedy.measure {
         RemedyKind::WiderBase => format!(
@@ -402,8 +402,7 @@ pub(crate) fn remedies(found: &Assessment) -> WordTable {
         ["Object", "Measure", "Mean return period of damage, years", "Target"];
     let row = |one: &ObjectAssessment, remedy: &Remedy| {
         let held = remedy.measure == RemedyKind::NoUplift;
-        let answer = remedy.answer.as_ref();
-        let period = answer.and_then(|own| return_period(found, own));
+        let period = remedy.return_period_years.map(|own| years(found, &own));
         vec![
             one.facts.object.label.clone(),
             measure_of(remedy, &one.facts),

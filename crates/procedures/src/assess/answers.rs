@@ -3,8 +3,8 @@
 use super::ground::{AssessmentSuite, LAST, range};
 use super::{Answer, IntervalPart, IntervalSource, Object, TargetVerdict};
 use crate::fit::{Band, BootstrapFits};
-use crate::fragility::hazard::Hazard;
 use crate::fragility::total::TotalFragility;
+use crate::risk::FragilityRisk;
 use crate::{
     FitOptions, FragilityFit, FragilityInput, ModelError, ProcedureError,
     Shift, fit_sample, risk,
@@ -165,10 +165,9 @@ impl AssessmentSuite<'_> {
         })
     }
 
-    /// Whether an answer reaches the target.
-    pub(super) fn verdict(&self, answer: &Answer) -> Option<TargetVerdict> {
+    /// Whether a return period reaches the target.
+    pub(super) fn verdict(&self, years: Estimate) -> Option<TargetVerdict> {
         let target = self.options.target_years?;
-        let years = answer.return_period_years()?;
         let own = years.value();
         let (low, high) = years.interval().map_or((own, own), |i| i.ends());
         Some(if low >= target {
@@ -268,17 +267,23 @@ impl AssessmentSuite<'_> {
             Some(all) => all.quantile(&own.fitted, p),
             None => Estimate::exact(own.fitted.quantile(p)),
         };
-        let exposed = |hazard: &Hazard| {
-            let own = std::slice::from_ref(own);
-            let found = risk(hazard, own, self.options.years).ok()?;
-            found.fragilities.into_iter().next()
-        };
         Answer {
             fitted: own.fitted,
             median_im: at(0.5),
             small_im: at(SMALL),
-            risk: self.options.hazard.and_then(exposed),
+            risk: self.exposed(own),
         }
+    }
+
+    /// Frequency and probability of damage; none without a hazard curve.
+    pub(super) fn exposed(
+        &self,
+        own: &FragilityInput,
+    ) -> Option<FragilityRisk> {
+        let own = std::slice::from_ref(own);
+        let found =
+            risk(self.options.hazard?, own, self.options.years).ok()?;
+        found.fragilities.into_iter().next()
     }
 
     /// The sorting key of objects: the annual frequency, falling, or the

@@ -279,7 +279,11 @@ impl<'a> AssessmentSuite<'a> {
         for eta in RESTITUTIONS {
             etas.push(Restitution::constant(eta)?);
         }
-        etas.extend(Restitution::housner(&object.block));
+        // Housner's, if the others do not enclose it.
+        let [low, high] = RESTITUTIONS;
+        let housner = Restitution::housner(&object.block).into_iter();
+        let within = |eta: f64| (low..=high).contains(&eta);
+        etas.extend(housner.filter(|own| !within(own.velocity_ratio())));
         let of = |eta| self.analysis(object, eta);
         let mut all: Vec<Analysis> = etas.into_iter().map(of).collect();
         if self.resurrects(object) {

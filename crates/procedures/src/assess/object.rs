@@ -113,7 +113,8 @@ impl AssessmentSuite<'_> {
         for curve in &curves {
             resolution.add(&curve.resolution);
         }
-        let target = self.verdict(&answer);
+        let years = answer.return_period_years();
+        let target = years.and_then(|own| self.verdict(own));
         let remedies =
             self.remedies(&facts, &intervals, shift, &answer, &unknowns)?;
         let hazard = self.options.hazard;
@@ -124,7 +125,7 @@ impl AssessmentSuite<'_> {
         let contributions =
             hazard.map_or(Vec::new(), |h| h.curve.contributions(own.fitted));
         let last = hazard.map(|h| h.curve.ends().1.1.recip());
-        let years = answer.return_period_years().map(|own| own.value());
+        let years = years.map(|own| own.value());
         if let Some((last, years)) = last.zip(years)
             && !(years <= last)
         {

@@ -3,7 +3,7 @@
 use libm::{exp, log, pow};
 
 use super::answers::Unknowns;
-use super::ground::{AssessmentSuite, COARSE, ObjectMotion};
+use super::ground::{AssessmentSuite, ObjectMotion};
 use super::{
     Answer, AssessError, Damage, NamedFloor, Object, ObjectFacts,
     TargetVerdict,
@@ -12,6 +12,7 @@ use rocking::block::Block;
 use rocking::ida::{Analysis, Batch, curves};
 use rocking::names::named;
 use rocking_records::floor::Floor;
+use rocking_statistics::Estimate;
 
 /// Period in s and damping ratio of the isolation.
 const ISOLATION: (f64, f64) = (3.0, 0.15);
@@ -19,8 +20,11 @@ const ISOLATION: (f64, f64) = (3.0, 0.15);
 /// Largest factor of the slenderness that is sought.
 const MOST: f64 = 4.0;
 
-/// Number of sizes that are tried in full.
-const TRIES: usize = 3;
+/// Number of sizes that are tried.
+const TRIES: usize = 4;
+
+/// How far beyond the target the next size aims.
+const ENOUGH: f64 = 1.03;
 
 /// Steps in which measures are given: sizes in m, and forces over weight.
 const STEP: f64 = 0.01;
@@ -33,9 +37,9 @@ pub struct Remedy {
     pub measure: RemedyKind,
     /// Its size, in the unit that the measure names.
     pub size: f64,
-    /// Answer of the changed object; none if no size up to this one meets the
-    /// target, and of a tie against uplift.
-    pub answer: Option<Answer>,
+    /// Mean return period of damage of the changed object in years; none if no
+    /// size up to this one meets the target, and of a tie against uplift.
+    pub return_period_years: Option<Estimate>,
     /// Whether it meets the target.
     pub target: Option<TargetVerdict>,
 }
@@ -72,6 +76,7 @@ struct Case<'a> {
     shift: f64,
     target: f64,
     years: f64,
+    low: f64,
     goal: f64,
 }
 
@@ -103,7 +108,7 @@ impl AssessmentSuite<'_> {
         }
         let years = own.value();
         let goal = target * years / low;
-        let case = Case { facts, unknowns, shift, target, years, goal };
+        let case = Case { facts, unknowns, shift, target, years, low, goal };
         // The factor on the capacity that reaches the goal, for a first size.
         let scaled = |k: f64| match answer.fitted.scaled(k) {
             Ok(other) => self.years(&other),
@@ -160,23 +165,7 @@ impl AssessmentSuite<'_> {
         };
         let changed = |block: Block| Object { block, ..facts.object.clone() };
         let mut k = factor;
-        let mut power = 3.0;
-        if k < most {
-            let (.., first) = rounded(facts, size(facts, k));
-            let other = changed(block(first)?);
-            let coarse = Analysis {
-                grid: COARSE,
-                ..self.analysis(&other, other.restitution)
-            };
-            let (values, shift) = self.of(&other, moved, &coarse)?;
-            let fit = self.fit(&values, shift);
-            let fit = fit.map_err(|source| facts.refused(source))?.fitted;
-            let total = case.unknowns.total(fit);
-            let years = total.map_or(f64::NAN, |total| self.years(&total));
-            power = (log(years / case.years) / log(k)).max(1.0);
-            k *= pow(case.goal / years, power.recip());
-        }
-        for _ in 0..TRIES {
+        for attempt in 0..TRIES {
             if !(k < most) {
                 break;
             }
@@ -184,17 +173,27 @@ impl AssessmentSuite<'_> {
             let other = changed(block(sizes)?);
             let analysis = self.analysis(&other, other.restitution);
             let (values, shift) = self.of(&other, moved, &analysis)?;
+            if attempt == 0 {
+                // The first size only tells how far the next one has to go.
+                let fit = self.fit(&values, shift);
+                let fit = fit.map_err(|source| facts.refused(source))?.fitted;
+                let total = case.unknowns.total(fit);
+                let years = total.map_or(f64::NAN, |own| self.years(&own));
+                let times = ENOUGH * case.goal / case.years;
+                k = secant(k, years / case.years, times);
+                continue;
+            }
             let kind = (measure, size);
             let remedy = self.remedy(case, kind, &values, shift)?;
             if remedy.target == Some(TargetVerdict::Meets) {
                 return Ok(remedy);
             }
-            let period = remedy.answer.and_then(|a| a.return_period_years());
-            let low = period.and_then(|own| own.low()).unwrap_or(f64::NAN);
-            k *= 1.02 * pow(case.target / low, power.recip());
+            let low = remedy.return_period_years.and_then(|own| own.low());
+            let low = low.unwrap_or(f64::NAN) / case.low;
+            k = secant(k, low, ENOUGH * case.target / case.low);
         }
         let (measure, size, _) = rounded(facts, size(facts, most));
-        Ok(Remedy { measure, size, answer: None, target: None })
+        Ok(Remedy { measure, size, return_period_years: None, target: None })
     }
 
     fn isolated(&self, case: &Case<'_>) -> Result<Remedy, AssessError> {
@@ -256,7 +255,7 @@ impl AssessmentSuite<'_> {
         let k = least(|k| frequency(k) <= case.target.recip());
         let size = up(0.5 * (k - 1.0) * case.facts.uplift_pga_g);
         let measure = RemedyKind::NoUplift;
-        Remedy { measure, size, answer: None, target: None }
+        Remedy { measure, size, return_period_years: None, target: None }
     }
 
     fn remedy(
@@ -269,9 +268,9 @@ impl AssessmentSuite<'_> {
         let id = &case.facts.object.id;
         let own = self.drawn(id, values, shift, self.clusters, case.unknowns);
         let own = own.map_err(|source| case.facts.refused(source))?;
-        let answer = self.answer(&own);
-        let target = self.verdict(&answer);
-        Ok(Remedy { measure, size, answer: Some(answer), target })
+        let years = self.exposed(&own).map(|own| own.return_period_years());
+        let target = years.and_then(|own| self.verdict(own));
+        Ok(Remedy { measure, size, return_period_years: years, target })
     }
 
     /// Intensities of damage of an object on a motion, and the shift.
@@ -288,6 +287,13 @@ impl AssessmentSuite<'_> {
         let values = self.intervals(&facts, moved, &made)?;
         Ok((values, self.shift(&facts)))
     }
+}
+
+/// The factor of the slenderness at which the return period is `wanted` times
+/// as long, where it is `found` times as long at the factor `k`.
+fn secant(k: f64, found: f64, wanted: f64) -> f64 {
+    let power = (log(found) / log(k)).max(0.5);
+    pow(wanted, power.recip())
 }
 
 /// Rounded up to a step.

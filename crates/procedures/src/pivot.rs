@@ -132,10 +132,10 @@ impl PivotForces {
 }
 
 /// Number of levels of a curve at which friction is sought.
-const LEVELS: usize = 5;
+const LEVELS: usize = 4;
 
 /// The largest friction |H|/N that a record needs at the levels of its curve
-/// below the intensity `below_im`: at the strongest one, and at four more,
+/// below the intensity `below_im`: at the strongest one, and at three more,
 /// evenly below it. Infinite if N is not positive.
 ///
 /// # Errors

@@ -34,9 +34,13 @@ const REACH: f64 = 2.0;
 /// Periods in s of a hazard curve in AvgSA, which does not state its own.
 const AVERAGE_S: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 3.0];
 
-/// Spacing in g of the levels of searches and of resurrections.
-pub(super) const COARSE: Grid = Grid::Pga { step_g: COARSE_G };
-pub(super) const COARSE_G: f64 = 0.03;
+/// Spacing in g of the levels of resurrections.
+pub(super) const COARSE_G: f64 = 0.05;
+
+/// Widths in IM to which overturning is bisected under other assumptions, and
+/// in searches: it leaves 0.1 % and 1 % of a capacity.
+const OTHERS: f64 = 1e-3;
+pub(super) const SEARCH: f64 = 1e-2;
 
 /// The motions of the ground, or of one floor, under all records.
 pub(super) struct ObjectMotion {
@@ -284,12 +288,14 @@ impl<'a> AssessmentSuite<'a> {
         let housner = Restitution::housner(&object.block).into_iter();
         let within = |eta: f64| (low..=high).contains(&eta);
         etas.extend(housner.filter(|own| !within(own.velocity_ratio())));
-        let of = |eta| self.analysis(object, eta);
+        let refine = Some(OTHERS);
+        let of = |eta| Analysis { refine, ..self.analysis(object, eta) };
         let mut all: Vec<Analysis> = etas.into_iter().map(of).collect();
         if self.resurrects(object) {
             let resurrections = Some(Resurrections::Multiple(REACH));
             let own = of(object.restitution);
-            all.push(Analysis { grid: COARSE, resurrections, ..own });
+            let grid = Grid::Pga { step_g: COARSE_G };
+            all.push(Analysis { grid, resurrections, ..own });
         }
         Ok(all)
     }

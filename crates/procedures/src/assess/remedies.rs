@@ -3,7 +3,7 @@
 use libm::{exp, log, pow};
 
 use super::answers::Unknowns;
-use super::ground::{AssessmentSuite, ObjectMotion};
+use super::ground::{AssessmentSuite, ObjectMotion, SEARCH};
 use super::{
     Answer, AssessError, Damage, NamedFloor, Object, ObjectFacts,
     TargetVerdict,
@@ -171,7 +171,10 @@ impl AssessmentSuite<'_> {
             }
             let (measure, size, sizes) = rounded(facts, size(facts, k));
             let other = changed(block(sizes)?);
-            let analysis = self.analysis(&other, other.restitution);
+            let mut analysis = self.analysis(&other, other.restitution);
+            if attempt == 0 {
+                analysis.refine = Some(SEARCH);
+            }
             let (values, shift) = self.of(&other, moved, &analysis)?;
             if attempt == 0 {
                 // The first size only tells how far the next one has to go.

@@ -70,7 +70,7 @@ named! {
 
 /// One object, and the return period to which its value has to rise for the
 /// low end of its interval to be the target.
-struct Case<'a> {
+struct RemedyGoal<'a> {
     facts: &'a ObjectFacts,
     unknowns: &'a Unknowns,
     shift: f64,
@@ -108,7 +108,8 @@ impl AssessmentSuite<'_> {
         }
         let years = own.value();
         let goal = target * years / low;
-        let case = Case { facts, unknowns, shift, target, years, low, goal };
+        let case =
+            RemedyGoal { facts, unknowns, shift, target, years, low, goal };
         // The factor on the capacity that reaches the goal, for a first size.
         let scaled = |k: f64| match answer.fitted.scaled(k) {
             Ok(other) => self.years(&other),
@@ -150,7 +151,7 @@ impl AssessmentSuite<'_> {
     /// block.
     fn resized(
         &self,
-        case: &Case<'_>,
+        case: &RemedyGoal<'_>,
         factor: f64,
         size: impl Fn(&ObjectFacts, f64) -> f64,
         rounded: impl Fn(&ObjectFacts, f64) -> Resized,
@@ -199,7 +200,7 @@ impl AssessmentSuite<'_> {
         Ok(Remedy { measure, size, return_period_years: None, target: None })
     }
 
-    fn isolated(&self, case: &Case<'_>) -> Result<Remedy, AssessError> {
+    fn isolated(&self, case: &RemedyGoal<'_>) -> Result<Remedy, AssessError> {
         let (period_s, damping) = ISOLATION;
         let object = &case.facts.object;
         let name = "isolation".to_owned();
@@ -222,7 +223,7 @@ impl AssessmentSuite<'_> {
     /// A yielding tie; `intervals` are the intensities of damage without it.
     fn tied(
         &self,
-        case: &Case<'_>,
+        case: &RemedyGoal<'_>,
         factor: f64,
         intervals: &[(f64, f64)],
     ) -> Result<Remedy, AssessError> {
@@ -243,7 +244,7 @@ impl AssessmentSuite<'_> {
 
     /// A tie against uplift, from the mean annual frequency of uplift over the
     /// records.
-    fn held(&self, case: &Case<'_>) -> Remedy {
+    fn held(&self, case: &RemedyGoal<'_>) -> Remedy {
         let uplifts = self.uplifts(case.facts);
         let frequency = |k: f64| {
             let curve = self.options.hazard.map(|hazard| &hazard.curve);
@@ -263,7 +264,7 @@ impl AssessmentSuite<'_> {
 
     fn remedy(
         &self,
-        case: &Case<'_>,
+        case: &RemedyGoal<'_>,
         (measure, size): (RemedyKind, f64),
         values: &[(f64, f64)],
         shift: f64,

@@ -31,17 +31,15 @@ pub const SLIDING_SHARE: f64 = 0.05;
 /// The kind of a suite by default.
 const SUITE: SuiteKind = SuiteKind::Ordinary;
 
-/// Which object overturns first, how often, and how certainly: from a table of
+/// Which object overturns first, how often, and what helps: from a table of
 /// objects to one page.
 ///
-/// Each object is a free-standing rigid block that rocks on flat ground; it
-/// does not slide, jump or twist. Records are scaled until they overturn it.
-/// Without --suite the records are the 86 synthetic motions of ordinary
-/// earthquakes that come with the program; `python -m rocking.recorded
-/// motions` writes recorded ones (FEMA P-695). Without --hazard objects are
-/// ranked by the PGA that overturns them with a probability of 5 %, not by
-/// annual frequency. DIR receives the page index.html, assess.json with all
-/// its numbers, and CSV files of the curves.
+/// Each object is a rigid block that rocks on flat ground; it does not slide,
+/// jump or twist. Records are scaled until they overturn it. Without --suite
+/// the records are 86 embedded synthetic motions of ordinary earthquakes;
+/// `python -m rocking.recorded motions` writes recorded ones (FEMA P-695).
+/// Without --hazard objects are ranked by the PGA of 5 % damage. DIR receives
+/// index.html, assess.json with all its numbers, and CSV files.
 #[derive(clap::Args)]
 #[command(group = ArgGroup::new("object").required(true).multiple(true)
     .args(["objects", "width_m", "alpha"]))]
@@ -49,9 +47,8 @@ const SUITE: SuiteKind = SuiteKind::Ordinary;
     rocking assess --objects objects.csv --hazard hazard.csv\n  \
     rocking assess --width-m 0.5 --height-m 1.8 --suite records/")]
 pub struct AssessCommand {
-    /// Table of objects, CSV: width_m,height_m or alpha,p, and optionally id,
-    /// eta, friction (of the floor), limit_ratio (largest permitted
-    /// |theta|/alpha) and floor.
+    /// Table of objects, CSV: width_cm,height_cm or alpha,p, and optionally
+    /// label, friction, eta and others (docs/tables.md).
     #[arg(
         long,
         value_name = "OBJECTS.csv",
@@ -76,12 +73,10 @@ pub struct AssessCommand {
     hazard: Option<PathBuf>,
     #[command(flatten)]
     site: SiteArgs,
-    /// Target that each object is to reach: a return period in years, or a
-    /// probability of damage in --years; the page shows what would reach it.
+    /// Return period in years, or probability in --years, to reach.
     #[arg(long, value_name = "YEARS|P", requires = "hazard")]
     target: Option<f64>,
-    /// Share of the records above which an object that slides before its
-    /// damage counts as not rocking.
+    /// Largest share of records that let a ranked object slide.
     #[arg(long, value_name = "SHARE", default_value_t = SLIDING_SHARE)]
     sliding_share: f64,
     /// Settle each outcome with sufficient precision, which takes about thirty

@@ -67,8 +67,7 @@ pub struct AssessCommand {
     suite: Option<PathBuf>,
     #[command(flatten)]
     input: RecordArgs,
-    /// Hazard curve of the site, CSV; for its columns see `rocking risk
-    /// --help`.
+    /// Hazard curve of the site, CSV (columns: `rocking risk --help`).
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: Option<PathBuf>,
     #[command(flatten)]
@@ -76,7 +75,7 @@ pub struct AssessCommand {
     /// Return period in years, or probability in --years, to reach.
     #[arg(long, value_name = "YEARS|P", requires = "hazard")]
     target: Option<f64>,
-    /// Largest share of records that let a ranked object slide.
+    /// Share of records that may slide a ranked object.
     #[arg(long, value_name = "SHARE", default_value_t = SLIDING_SHARE)]
     sliding_share: f64,
     /// Settle each outcome with sufficient precision, which takes about thirty

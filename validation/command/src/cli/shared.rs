@@ -143,7 +143,7 @@ pub struct ModelErrorArgs {
     /// Dispersion of the model, S or S,LOW,HIGH [default: 0.2,0,0.25].
     #[arg(long, value_name = "S", value_parser = ModelError::parse_dispersion)]
     model_dispersion: Option<ModelErrorPart>,
-    /// Bias, B[,LOW,HIGH] or `fitted` [default: 1,0.77,1.3; assess: `fitted`].
+    /// Bias, B[,LOW,HIGH] or `fitted` [default: 1,0.77,1.3; assess fitted].
     #[arg(long, value_name = "B", value_parser = ModelError::parse_bias)]
     model_bias: Option<ModelErrorPart>,
 }

@@ -124,8 +124,8 @@ pub(crate) fn first(found: &Assessment) -> String {
     if let Some(target) = found.target_years {
         let years = thousands(target);
         for (verdict, what) in [
-            (TargetVerdict::Misses, "not met by"),
-            (TargetVerdict::Undecided, "in the interval of"),
+            (TargetVerdict::Misses, "missed by"),
+            (TargetVerdict::Undecided, "not decided for"),
             (TargetVerdict::Meets, "met by"),
         ] {
             let all = found.objects.iter();
@@ -138,7 +138,8 @@ pub(crate) fn first(found: &Assessment) -> String {
         }
         if !rows.is_empty() {
             let rows = rows.join("; ");
-            words += &format!("Target, once in {years} years: {rows}. ");
+            words +=
+                &format!("The target of once in {years} years is {rows}. ");
         }
     }
     let sliding = found.not_rocking.iter();

@@ -66,10 +66,14 @@ class GivenObject(TypedDict):
     eta: float
     friction: float | None
     limit_ratio: float | None
+    notes: list[tuple[str, str]]
+    position_m: tuple[float, float] | None
     floor: tuple[str, float, float, float] | None
 
 class AssessOptions(TypedDict):
     years: float
+    target: float | None
+    sliding_share: float
     certify: bool
     replicates: int
     seed: int

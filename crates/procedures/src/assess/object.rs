@@ -102,9 +102,10 @@ impl AssessmentSuite<'_> {
         if let Some(above) = made.get(restitution_count(analyses)) {
             let last = fragility.fitted.quantile(LAST);
             let stripes = resurrected(above, threshold, last);
-            let fitted = fit_counts_alone(&stripes, shift);
-            let answer = fitted.map_err(ProcedureError::from);
-            beside(Assumption::Resurrections, answer.and_then(point))?;
+            // Too few stripes between 0 and 1 determine no dispersion: no row.
+            if let Ok(fitted) = fit_counts_alone(&stripes, shift) {
+                beside(Assumption::Resurrections, point(fitted))?;
+            }
         }
         if let Some(law) = self.by_law(&object) {
             beside(Assumption::Law, point(law))?;

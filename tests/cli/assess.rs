@@ -211,7 +211,7 @@ fn numbers_are_those_of_separate_commands() {
     let [crate_] = &sliding[..] else { panic!("{sliding:?}") };
     assert_eq!(crate_["id"], "crate");
     assert_eq!(crate_["friction_share"], 1.0, "tan(alpha) is above 0.2");
-    assert!(page.contains("They slide before they rock"));
+    assert!(page.contains("Objects that slide first"));
 }
 
 #[test]

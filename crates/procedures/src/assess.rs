@@ -407,7 +407,7 @@ impl fmt::Display for Assumption {
                 f.write_str("motions as they are, no factor of recorded ones")
             }
             Self::RecordsAlone => {
-                f.write_str("records alone, no error of the model")
+                f.write_str("records alone: no error of the model, no factors")
             }
             Self::NoShift => f.write_str("fragility without a shift"),
             Self::RecordsAsUnit => f.write_str("records drawn one by one"),
@@ -461,7 +461,8 @@ pub struct JointDamage {
 /// factor of the capacity. The factor lies in the range that coefficients of
 /// restitution of 0.85, 0.97 and Housner's give; on the ground it includes the
 /// ratio of recorded motions. The objects damaged together are counted record
-/// by record, since one earthquake shakes all of them.
+/// by record, since one earthquake shakes all of them; for k of them, the
+/// factors are those of the object of rank k.
 ///
 /// An object that slides before its damage under more than the given share of
 /// the records has no answer. Each object that does not meet the target gets

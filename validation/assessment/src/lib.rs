@@ -143,7 +143,8 @@ pub fn page(found: &Assessment, about: &About, files: &[&str]) -> String {
     };
     let introduction = html! {
         (about.ground) " Each object is modelled as a free-standing rigid \
-         block, which was not tested itself. " (words::held(found))
+         block, which was not tested itself. " (words::held(found)) " "
+        @if let Some(words) = words::recorded(found) { (words) "." }
         @for remark in &found.remarks { " Note: " (remark.to_string()) "." }
     };
     let sections = html! {
@@ -234,13 +235,13 @@ fn sliding(found: &Assessment) -> Markup {
         @if !found.not_rocking.is_empty() {
             h3 { "Objects that slide first" }
             p {
-                "Before damage, these objects need more friction than their \
-                 floor gives under more than "
-                (percent(found.sliding_share, 0))
-                " of the records. They slide before they rock. The rocking \
-                 model has no answer for them, so they have no rank and no \
-                 return period. On a floor with the friction that rocking \
-                 needs, they can be assessed."
+                "Under more than " (percent(found.sliding_share, 0))
+                " of the records, these objects need more friction than their \
+                 floor gives at some time before damage. The model does not \
+                 slide. It has no answer for them, so they have no rank and \
+                 no return period. On a floor with the friction that rocking \
+                 needs, they can be assessed; else fix them, or ask for a \
+                 study of their sliding."
             }
             (table("Objects that slide first", &words::sliding(found)))
         }
@@ -262,8 +263,8 @@ fn remedies(found: &Assessment) -> Markup {
             section {
                 h2 { "Measures that reach the target" }
                 p {
-                    "With each measure, the whole interval reaches the \
-                     target. Sizes are close to the least ones, and rounded up \
+                    "An object meets the target if its whole interval does, \
+                     and with each measure it does. Sizes are close to the least ones, and rounded up \
                      to 1 cm or 1 % of the weight. A wider base counts across \
                      the shorter side. A lower centre of mass, such as \
                      ballast, counts as a block of twice its height. Ties hold \
@@ -279,7 +280,7 @@ fn remedies(found: &Assessment) -> Markup {
 
 fn sign_off() -> Markup {
     html! {
-        section {
+        section.sign {
             h2 { "Sign-off" }
             p {
                 "By signing I confirm that the inventory, the hazard curve and \
@@ -461,9 +462,6 @@ fn limits(found: &Assessment) -> Markup {
                     "The other horizontal and the vertical component of \
                      each record."
                 }
-                @if let Some(words) = words::recorded(found) {
-                    li { (words) }
-                }
                 @if words::every(found).any(|one| one.object.floor.is_some()) {
                     li {
                         "The other modes of the building, its damage, and \
@@ -483,8 +481,6 @@ fn limits(found: &Assessment) -> Markup {
                          with natural bases, in one laboratory; that of \
                          another object may differ. "
                     }
-                    "The coefficient of restitution ranges from 0.85 to 0.97, \
-                     and to the value of Housner's formula."
                 }
                 @if objects.iter().any(|one| one.answer.risk.is_some()) {
                     li {

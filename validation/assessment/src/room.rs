@@ -69,9 +69,10 @@ pub(crate) fn line(objects: &[&ObjectFacts]) -> Markup {
 pub(crate) fn plan(objects: &[&ObjectFacts]) -> Markup {
     let placed = objects.iter();
     let placed = placed.filter_map(|one| Some((one.object.position_m?, one)));
-    let placed: Vec<_> = placed
+    let mut placed: Vec<_> = placed
         .map(|(at, one)| (at, 0.5 * one.width_m + one.height_m, one))
         .collect();
+    placed.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
     let span = |of: fn((f64, f64)) -> f64| {
         let ends = placed.iter().map(|(at, reach, _)| (of(*at), *reach));
         let low = ends.clone().map(|(x, r)| x - r);
@@ -90,7 +91,7 @@ pub(crate) fn plan(objects: &[&ObjectFacts]) -> Markup {
                     height=(height) viewBox={ "0 0 " (width) " " (height) }
                     role="img" aria-label="Plan: reach of each object"
                 {
-                    @for ((x, y), reach, one) in &placed {
+                    @for (k, ((x, y), reach, one)) in placed.iter().enumerate() {
                         @let (x, y) = (scale * (x - left), scale * (top - y));
                         @let w = scale * one.width_m;
                         circle cx=(x) cy=(y) r=(scale * reach) fill="none"
@@ -99,7 +100,9 @@ pub(crate) fn plan(objects: &[&ObjectFacts]) -> Markup {
                         rect x=(x - 0.5 * w) y=(y - 0.5 * w) width=(w)
                             height=(w) fill="none" stroke="currentColor"
                             stroke-width="1.5" {}
-                        text x=(x) y=(y + 0.5 * w + 13.0) font-size="12"
+                        // Labels alternate, below and above the objects.
+                        @let off = if k % 2 == 0 { 13.0 } else { -5.0 - w };
+                        text x=(x) y=(y + 0.5 * w + off) font-size="12"
                             text-anchor="middle" fill="currentColor"
                         { (one.object.label) }
                     }

@@ -195,7 +195,12 @@ pub(crate) fn held(found: &Assessment) -> String {
         return "The numbers have no interval.".to_owned();
     }
     let sources: Vec<&str> = sources.iter().map(String::as_str).collect();
-    let mut words = format!("The 95 % intervals hold: {}.", list(&sources));
+    let hazard = match found.longest_years {
+        Some(_) => " The hazard curve counts as known.",
+        None => "",
+    };
+    let mut words =
+        format!("The 95 % intervals include: {}.{hazard}", list(&sources));
     if let Some(one) = found.objects.first()
         && let Some(part) = one.largest_part()
     {
@@ -312,9 +317,11 @@ pub(crate) fn objects(found: &Assessment) -> WordTable {
     if !with_risk {
         heads.extend(intensity_heads(found, " damage"));
     }
-    heads.push("Comes first in draws".to_owned());
+    heads.push("Share of draws in which it comes first".to_owned());
     heads.push("Records under which it slides first".to_owned());
-    heads.push("Remarks".to_owned());
+    let with_remarks =
+        (found.objects.iter()).any(|one| !one.facts.remarks.is_empty());
+    heads.extend(with_remarks.then(|| "Remarks".to_owned()));
     let row = |(one, rank): (&ObjectAssessment, usize)| {
         let facts = &one.facts;
         let mut cells = vec![format!("{rank}. {}", label(facts))];
@@ -337,7 +344,7 @@ pub(crate) fn objects(found: &Assessment) -> WordTable {
             None => "friction not given".to_owned(),
             Some(share) => percent(share, 0),
         });
-        cells.push(remarks(facts));
+        cells.extend(with_remarks.then(|| remarks(facts)));
         cells
     };
     (heads, found.objects.iter().zip(1..).map(row).collect())
@@ -411,7 +418,7 @@ pub(crate) fn remedies(found: &Assessment) -> WordTable {
                 (Some(period), _) => period,
                 (None, true) => {
                     let target = found.target_years.unwrap_or(f64::NAN);
-                    format!("uplift once in {}", thousands(target))
+                    format!("no uplift up to once in {}", thousands(target))
                 }
                 (None, false) => "not enough".to_owned(),
             },

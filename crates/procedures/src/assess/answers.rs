@@ -40,22 +40,6 @@ impl Unknowns {
         self.error.is_none() && self.factors().is_empty()
     }
 
-    /// Those of several objects together: the widest range of each factor.
-    pub(super) fn widest<'a>(
-        all: impl Iterator<Item = &'a Self> + Clone,
-        error: ModelError,
-    ) -> Self {
-        let of = |factor: fn(&Self) -> Estimate| {
-            let ends = all.clone().filter_map(|own| factor(own).interval());
-            let ends = ends.flat_map(|own| [own.low(), own.high()]);
-            let values = all.clone().map(|own| factor(own).value());
-            around(values.fold(f64::INFINITY, f64::min).min(1.0), ends)
-        };
-        let [restitution, motions] =
-            [of(|own| own.restitution), of(|own| own.motions)];
-        Self { error, restitution, motions }
-    }
-
     fn factors(&self) -> Vec<Estimate> {
         let all = [self.restitution, self.motions].into_iter();
         let known = |own: &Estimate| *own == Estimate::exact(1.0);

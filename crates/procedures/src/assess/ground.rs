@@ -404,8 +404,9 @@ impl<'a> AssessmentSuite<'a> {
         let mut uplifts: Vec<f64> = own.collect();
         uplifts.sort_by(f64::total_cmp);
         let on_ground = facts.clone().all(|one| one.object.floor.is_none());
-        let all = found.iter().map(|one| &one.unknowns);
-        let unknowns = Unknowns::widest(all, self.options.model_error);
+        // What is unknown of the object whose rank is the number of objects.
+        let mut ranked: Vec<&ObjectResult> = found.iter().collect();
+        ranked.sort_by(|a, b| a.key.total_cmp(&b.key));
         let several = (1..=found.len()).filter(|_| found.len() > 1);
         let mut all = Vec::new();
         for at_least in several {
@@ -426,8 +427,8 @@ impl<'a> AssessmentSuite<'a> {
                 _ => 0.0,
             };
             let id = format!("{at_least} objects or more");
-            let own =
-                self.drawn(&id, &values, shift, self.clusters, &unknowns);
+            let unknowns = &ranked[at_least - 1].unknowns;
+            let own = self.drawn(&id, &values, shift, self.clusters, unknowns);
             let own = own.map_err(|source| AssessError::Fit { id, source })?;
             all.push(JointDamage { at_least, answer: self.answer(&own) });
         }

@@ -121,10 +121,13 @@ pub fn parse(
     ensure!(!rows.is_empty(), "{place}: no block");
     // An id that is derived differs from all that are given.
     let given = &table.names[1];
-    let ids = rows.iter_mut().map(|row: &mut BlockRow| &mut row.id);
-    let (own, derived): (Vec<_>, Vec<_>) =
-        ids.partition(|id| given.contains_key(&id.to_string()));
-    Id::distinguish(own.into_iter().chain(derived));
+    let is_given = |row: &&mut BlockRow| {
+        let line = given.get(&row.id.to_string());
+        line.is_some_and(|line| row.place == format!("{place}:{line}"))
+    };
+    let (own, derived): (Vec<_>, Vec<_>) = rows.iter_mut().partition(is_given);
+    let all = own.into_iter().chain(derived);
+    Id::distinguish(all.map(|row| &mut row.id));
     Ok(rows)
 }
 

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use rocking::accelerogram::Accelerogram;
 use rocking::block::Restitution;
-use rocking_exchange::Id;
 use rocking_assessment::{About, files, recorded_ratios};
+use rocking_exchange::Id;
 use rocking_procedures::assess::NamedFloor;
 use rocking_procedures::{
     AssessOptions, Draws, ModelError, Object, assess as procedure,
@@ -92,8 +92,7 @@ pub fn assess(
         false => Ok(Vec::new()),
     };
     let Options { replicates, seed, .. } = options;
-    let model_error =
-        model_error(&options.model_error, ModelError::fitted())?;
+    let model_error = model_error(&options.model_error, ModelError::fitted())?;
     let years = options.years;
     let target = options.target.map(|target| {
         AssessOptions::target(target, years).ok_or_else(|| {

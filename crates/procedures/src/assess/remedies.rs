@@ -145,10 +145,10 @@ impl AssessmentSuite<'_> {
         Ok(found)
     }
 
-    /// The least change of a size that meets the target. `size` is the
-    /// changed size at a factor of the slenderness, `rounded` the measure with
-    /// that size, rounded to the safe side, and the width and height of its
-    /// block.
+    /// A change of a size that meets the target, close to the least one. `size`
+    /// is the changed size at a factor of the slenderness, `rounded` the
+    /// measure with that size, rounded to the safe side, and the width and
+    /// height of its block.
     fn resized(
         &self,
         case: &RemedyGoal<'_>,
@@ -171,7 +171,9 @@ impl AssessmentSuite<'_> {
                 break;
             }
             let (measure, size, sizes) = rounded(facts, size(facts, k));
-            let other = changed(block(sizes)?);
+            // A size of a few cm may round to no block at all.
+            let Ok(block) = block(sizes) else { break };
+            let other = changed(block);
             let mut analysis = self.analysis(&other, other.restitution);
             if attempt == 0 {
                 analysis.refine = Some(SEARCH);

@@ -14,6 +14,8 @@ mod endless;
 mod ends;
 #[path = "mechanics/engines.rs"]
 mod engines;
+#[path = "mechanics/lanes.rs"]
+mod lanes;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/regressions.rs"]

@@ -4,4 +4,3 @@ mod certified;
 #[path = "../../tests/compare.rs"]
 mod compare;
 mod integrator_pool;
-mod lanes;

@@ -7,7 +7,7 @@ use rocking_report::lab::{LAB, page};
 use serde_json::{Value, json};
 
 use super::super::compare::committed;
-use super::{AXE, CHECKS, SCHEMES, WIDTHS_PX, axe, lines, root, started};
+use super::{CHECKS, VIEWS, axe, lines, root, started};
 
 /// The engine that a page holds.
 fn engine_of(page: &str) -> Option<&str> {
@@ -51,19 +51,15 @@ fn the_laboratory_is_readable() {
     let Some(mut browser) = started("lab") else { return };
     let path = root().join("reports").join(LAB);
     let mut found = Vec::new();
-    for width_px in WIDTHS_PX {
-        for scheme in SCHEMES {
-            browser.open(&path, width_px, scheme);
-            browser.evaluate(&until("document.body.dataset.ready"));
-            let mut here = lines(&browser.evaluate(CHECKS)["problems"]);
-            here.extend(browser.events());
-            found.extend(
-                here.iter().map(|p| format!("{width_px} px, {scheme}: {p}")),
-            );
-            if AXE.contains(&(width_px, scheme)) {
-                found.extend(axe(&mut browser).unwrap_or_default());
-            }
-        }
+    for (width_px, scheme) in VIEWS {
+        browser.open(&path, width_px, scheme);
+        browser.evaluate(&until("document.body.dataset.ready"));
+        let mut here = lines(&browser.evaluate(CHECKS)["problems"]);
+        here.extend(browser.events());
+        found.extend(
+            here.iter().map(|p| format!("{width_px} px, {scheme}: {p}")),
+        );
+        found.extend(axe(&mut browser).unwrap_or_default());
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

@@ -72,4 +72,4 @@ pub(super) fn pairs(suite: &Design) -> Result<Vec<Pair>, SynthesisError> {
 }
 
 #[cfg(test)]
-mod tests;
+pub mod tests;

@@ -37,7 +37,7 @@ fn what_is_left_is_bounded_by_fine_sums() {
     let samples = samples();
     let index = RecordIndex::new(&samples);
     let motion = motion(&samples);
-    for interval in (0..samples.len() - 1).step_by(7) {
+    for interval in (0..samples.len() - 1).step_by(41) {
         let rest = &motion[100 * interval..];
         let left = index.left(interval);
         let speed = rest.iter().map(|m| m.0.abs()).fold(0.0, f64::max);

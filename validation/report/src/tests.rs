@@ -2,6 +2,7 @@
 //! suites.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use indicatif::ProgressBar;
 use rocking::block::Restitution;
@@ -145,7 +146,9 @@ fn small(
     plan: Plan,
     proof: Option<&Proof>,
 ) -> (Files, String) {
-    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
+    static SUITES: LazyLock<[StudySuite; 2]> =
+        LazyLock::new(|| StudySuite::embedded().expect("suites"));
+    let [mut ordinary, mut pulse] = SUITES.clone();
     for (suite, records) in [(&mut ordinary, 10), (&mut pulse, 4)] {
         suite.motions.truncate(records);
         for motion in &mut suite.motions {

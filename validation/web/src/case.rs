@@ -1,6 +1,7 @@
 //! Reference cases, run in the page.
 
 use std::error::Error;
+use std::sync::OnceLock;
 
 use rocking_proof::cases::{Case, Cost, load_all};
 use rocking_proof::methods::page_methods;
@@ -26,21 +27,33 @@ pub struct CaseRun {
     first: String,
 }
 
+/// The declared cases, read once.
+fn cases() -> Result<&'static [Case], Box<dyn Error>> {
+    static CASES: OnceLock<Vec<Case>> = OnceLock::new();
+    if let Some(cases) = CASES.get() {
+        return Ok(cases);
+    }
+    let cases = load_all()?;
+    Ok(CASES.get_or_init(|| cases))
+}
+
 /// The cases that a page runs: quick cases of methods that take little time.
 pub fn list() -> Result<Vec<CaseSummary>, Box<dyn Error>> {
     let quick = |case: &Case| {
         let of_page = page_methods().any(|(name, _)| *name == case.method);
         case.cost == Cost::Quick && of_page
     };
-    let quick = load_all()?.into_iter().filter(quick);
-    let listed = |case: Case| CaseSummary { id: case.id, claim: case.claim };
+    let quick = cases()?.iter().filter(|case| quick(case));
+    let listed = |case: &Case| CaseSummary {
+        id: case.id.clone(),
+        claim: case.claim.clone(),
+    };
     Ok(quick.map(listed).collect())
 }
 
 /// Runs one case, without its wrong models.
 pub fn run(id: &str) -> Result<CaseRun, Box<dyn Error>> {
-    let cases = load_all()?;
-    let case = cases.iter().find(|case| case.id == id);
+    let case = cases()?.iter().find(|case| case.id == id);
     let case = case.ok_or_else(|| format!("no case {id}"))?;
     let checks = checks_of(case)?;
     let bits = checks.iter().fold(Bits::default(), |bits, check| {

@@ -19,7 +19,7 @@ use crate::waves::Envelope;
 /// Pairs of both suites, and logarithms of the quantities of the study
 /// components as the core measures them.
 type Made = (Vec<Pair>, Vec<[f64; QUANTITIES]>);
-static MADE: LazyLock<[Made; 2]> = LazyLock::new(|| {
+pub static MADE: LazyLock<[Made; 2]> = LazyLock::new(|| {
     [&ORDINARY, &PULSE].map(|suite| {
         let pairs = super::pairs(suite).expect("suite");
         let measured = pairs.iter().map(measured).collect();

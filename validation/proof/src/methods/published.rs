@@ -125,14 +125,19 @@ fn velocities(
     let grid = Grid::Im { step: 0.05 };
     for p in SIZES_RAD_S {
         let analysis = Analysis { grid, ..analysis(0.1, p)? };
-        let curves = ida::curves(records, &[analysis], &Batch::default())?;
-        let im = |curve: &IdaCurve| match (wrong, curve.overturning) {
-            (Some(WrongModel::UpliftForOverturning), _) => 1.0,
-            (_, first) => first.map_or(f64::INFINITY, |first| first.im()),
+        let first = |curve: &IdaCurve| {
+            curve.overturning.map_or(f64::INFINITY, |first| first.im())
         };
-        let ims = curves.iter().flatten().map(im);
-        let all = ims.zip(pgv_over_pga_s).map(|(im, pgv)| p * (im * pgv));
-        let all: Vec<f64> = all.collect();
+        let ims: Vec<f64> = match wrong {
+            Some(WrongModel::UpliftForOverturning) => vec![1.0; records.len()],
+            _ => ida::curves(records, &[analysis], &Batch::default())?
+                .iter()
+                .flatten()
+                .map(first)
+                .collect(),
+        };
+        let all = ims.iter().zip(pgv_over_pga_s);
+        let all: Vec<f64> = all.map(|(im, pgv)| p * (im * pgv)).collect();
         let tail = quantile(&all, 0.05)?;
         tails = [tails[0].min(tail), tails[1].max(tail)];
         for (quantity, value) in [

@@ -1,12 +1,12 @@
 use super::compare::same;
-use crate::accelerogram::{Accelerogram, AccelerogramError};
-use crate::block::{Block, Restitution};
-use crate::excitation::NormalisedRecord;
-use crate::ida::{
+use rocking::accelerogram::{Accelerogram, AccelerogramError};
+use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{
     Adjust, Analysis, Batch, Grid, Resurrections, curve, curves,
 };
-use crate::integrator::{Model, Order, Overturning};
-use crate::number::dispatch::Isa;
+use rocking::integrator::{Model, Order, Overturning};
+use rocking::number::dispatch::Isa;
 
 /// Filtered noise under a parabolic envelope, from a linear congruence.
 fn noise(seed: u64, dt_s: f64) -> Result<Accelerogram, AccelerogramError> {

@@ -87,16 +87,17 @@ pub fn progress(length: u64) -> indicatif::ProgressBar {
 const LOG_INTERVAL: Duration = Duration::from_secs(30);
 
 /// Does `work`. Without a terminal for `bar`, notes its progress on standard
-/// error every half minute.
+/// error after five seconds and then every half minute.
 pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     if io::stderr().is_terminal() {
         return work();
     }
     let say = || {
-        let length = bar.length().unwrap_or(0);
-        note(&format!("{} of {length} done", bar.position()));
+        let (message, length) = (bar.message(), bar.length().unwrap_or(0));
+        let stage = if message.is_empty() { message } else { message + ": " };
+        note(&format!("{stage}{} of {length} done", bar.position()));
     };
-    saying([LOG_INTERVAL, LOG_INTERVAL], &say, work)
+    saying([Duration::from_secs(5), LOG_INTERVAL], &say, work)
 }
 
 /// Time after which one long analysis says how far it is.

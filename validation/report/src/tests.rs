@@ -160,7 +160,7 @@ fn small(
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
-        let study = Study::run(plan, &[ordinary, pulse], &progress);
+        let study = Study::run(plan, &[ordinary, pulse], &progress, &|_| ());
         let study = study.expect("study");
         let signatures = Signatures::default();
         let files = output::files(&study, proof, &signatures, false);

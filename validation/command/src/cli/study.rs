@@ -161,14 +161,16 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
+    note("the motions are read or made, then 15 blocks are analysed");
     let suites = suites(args)?;
     // Drawn on a terminal only.
     let bar = ProgressBar::new(0);
-    let template = "{bar:40} {pos}/{len} chains, {eta} left";
+    let template = "{msg}: {bar:40} {pos}/{len} chains";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    let study = logged(&bar, || Study::run(plan, &suites, &bar))?;
+    let answer = |words: &str| bar.suspend(|| note(words));
+    let study = logged(&bar, || Study::run(plan, &suites, &bar, &answer))?;
     bar.finish_and_clear();
     let signatures = Signatures { commit: COMMIT, ..args.signatures.clone() };
     let lab = args.out.join(LAB).is_file();

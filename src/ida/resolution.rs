@@ -97,3 +97,25 @@ impl ResolutionCounts {
         self.only_these_doubles += other.only_these_doubles;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_takes_every_count() {
+        let counts = |times: u64| ResolutionCounts {
+            analyses: times,
+            assessed: 2 * times,
+            resolved_by_double: 3 * times,
+            resolved_by_double_double: 4 * times,
+            resolved_by_octuple: 5 * times,
+            unresolved: 6 * times,
+            wrong_in_double: 7 * times,
+            only_these_doubles: 8 * times,
+        };
+        let mut sum = counts(1);
+        sum.add(&counts(10));
+        assert_eq!(sum, counts(11));
+    }
+}

@@ -33,6 +33,36 @@ fn certified_fates_agree_where_double_precision_resolves_them() {
     assert!(plain.overturning.is_some());
 }
 
+/// A bracket of 0.25 is at most 0.01 wide after five halvings: 0.25/32.
+#[test]
+fn each_halving_of_a_bracket_is_an_analysis() {
+    let grid = Grid::Im { step: 0.25 };
+    let plain = Analysis { grid, ..analysis(None) };
+    let plain = curve(&lobe(), &plain).unwrap();
+    let levels = plain.points.len() as u64;
+    assert!(plain.overturning.is_some() && levels > 1);
+    assert_eq!(plain.analyses, levels);
+    let refined = Analysis { grid, ..analysis(Some(0.01)) };
+    let refined = curve(&lobe(), &refined).unwrap();
+    assert_eq!(refined.points.len() as u64, levels);
+    assert_eq!(refined.analyses, levels + 5);
+}
+
+/// Twice an intensity of the grid is one, too: the last above the first
+/// overturning.
+#[test]
+fn resurrections_are_sought_up_to_a_multiple_of_the_overturned_level() {
+    let grid = Grid::Im { step: 0.25 };
+    let resurrections = Some(Resurrections::Multiple(2.0));
+    let all = Analysis { grid, resurrections, ..analysis(None) };
+    let found = curve(&lobe(), &all).unwrap();
+    let first = found.overturning.unwrap().scanned_im;
+    let last = found.above.last().unwrap().im;
+    assert_eq!(last, 2.0 * first);
+    let between = ((last - first) / 0.25).round() as usize;
+    assert_eq!(found.above.len(), between);
+}
+
 #[test]
 fn bisection_to_the_last_bit_needs_double_double() {
     // The bracket's ends are neighbours, a rounding of the margin apart.

@@ -127,6 +127,25 @@ fn bound(hop: &BarrierHop<f64>, v: f64, sway: f64) -> Option<f64> {
     Some(0.5 * (hop.height - free.safe(v, sway)?))
 }
 
+/// The bound is the sum that the head of the module derives, term by term,
+/// under Eq. 2: lean = alpha, M^2 = u_p (2 alpha - u_p).
+#[test]
+fn the_bound_of_a_gain_has_all_its_terms() {
+    let (alpha, peak, v, sway) = (0.25, 0.2, 0.05, 0.02);
+    let hop = hop(&dynamics(Model::Linearized, alpha), peak);
+    let (lean, time) = (alpha, hop.time);
+    let most = (peak * (2.0 * alpha - peak)).sqrt();
+    let bent = 0.625 * alpha * sway * sway;
+    let way = (2.0 * peak + 2.0 * sway + 0.5 * alpha * sway * v * time)
+        / (1.0 - 0.5 * alpha * sway);
+    let gain = lean * sway
+        + way * (0.5 * sway + alpha * v * (most + v) + bent)
+        + 0.25 * sway * sway
+        + bent * v * time;
+    let found = bound(&hop, v, sway).expect("steady") / super::SURELY;
+    assert!((found / gain - 1.0).abs() < 1e-12, "{found} {gain}");
+}
+
 /// From the calm on nothing is allowed that an impact could not take.
 #[test]
 fn calm_needs_impacts_that_take_more_than_hops_give() {

@@ -50,6 +50,27 @@ fn comparison_looks_at_both_parts() {
     assert!(!(nan < one) && !(nan >= one) && nan != nan);
 }
 
+/// Where the first parts cancel, the sum of the second parts is all.
+#[test]
+fn what_is_left_of_a_cancelled_sum_is_exact() {
+    let [a, b] = [-60, -130].map(|exponent| libm::scalbn(1.0, exponent));
+    let rest = DoubleDouble::sum(1.0, a) + DoubleDouble::sum(-1.0, b);
+    assert_eq!(rest, DoubleDouble { hi: a, lo: b });
+}
+
+/// ln(2^k) = k ln 2, far above 1, where the first approximation is off by
+/// many roundings of the result's last digit.
+#[test]
+fn logarithms_of_large_powers_of_two_are_multiples_of_ln_2() {
+    for k in (600..1000).step_by(7) {
+        let power = DoubleDouble::sum(libm::scalbn(1.0, k), -1.0);
+        let zero = DoubleDouble::zero();
+        let expected = -zero.less(f64::from(k), LN_2);
+        let off = (power.ln_1p() - expected) / expected;
+        assert!(off.hi.abs() < 1e-31, "{k}: {:e}", off.hi);
+    }
+}
+
 #[test]
 fn infinities_stay_infinite_and_roots_of_negatives_are_not_numbers() {
     let one = DoubleDouble::one();

@@ -208,3 +208,44 @@ impl CensoredSample {
         self.values.iter().zip(&self.limits).map(interval).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A value censored below a quantile leaves it open, one censored at it
+    /// does not.
+    #[test]
+    fn a_quantile_is_known_up_to_the_least_limit() {
+        let values = [1.0, 2.0, 3.0, f64::INFINITY];
+        let middle = |limit: f64| {
+            let limits = [None, None, None, Some(limit)];
+            let own = CensoredSample::try_new(&values, &limits).unwrap();
+            own.quantile(QuantileType::try_new(1).unwrap(), 0.5)
+        };
+        assert_eq!(middle(1.9), None);
+        assert_eq!(middle(2.0), Some(2.0));
+        assert_eq!(middle(2.1), Some(2.0));
+    }
+
+    /// Of 1 to 30 and a censored value, the quantile at 95 % lies between 29
+    /// and 30. A value censored there keeps its limit; one that lies beyond
+    /// it has that of the largest value up to it.
+    #[test]
+    fn a_limit_at_the_cut_is_kept() {
+        let mut values: Vec<f64> = (1..=30).map(f64::from).collect();
+        values.push(f64::INFINITY);
+        let quantile_type = QuantileType::default();
+        let sample = ExtendedSample::try_new(&values).unwrap();
+        let cut = quantile_type.extended_quantile(&sample, 0.95).unwrap();
+        assert!((cut - 29.95).abs() < 1e-9);
+        let mut limits = vec![None; 30];
+        limits.push(Some(cut));
+        let own = CensoredSample::try_new(&values, &limits).unwrap();
+        let found = own.fit(0.0, FitMethod::Censored(quantile_type)).unwrap();
+        let mut all: Vec<(f64, f64)> =
+            values[..29].iter().map(|x| (*x, *x)).collect();
+        all.extend([(29.0, f64::INFINITY), (cut, f64::INFINITY)]);
+        assert_eq!(found, fit_intervals(&all, 0.0).unwrap());
+    }
+}

@@ -237,6 +237,19 @@ mod tests {
         assert_eq!(Clusters::singletons(0).count(), 0);
     }
 
+    /// Of {0, 2} and {4}: B = 6, W = 2, n_0 = (3 - 5/3)/1 = 4/3, and
+    /// (6 - 2)/(6 + 2/3) = 0.6. Of {0, 2} and {5, 7}: B = 25, W = 2, n_0 = 2.
+    #[test]
+    fn the_share_between_clusters_is_that_of_its_mean_squares() {
+        let share = |labels: &[&str], values: &[f64]| {
+            Clusters::from_labels(labels).intraclass(values).unwrap()
+        };
+        let found = share(&["a", "a", "b"], &[0.0, 2.0, 4.0]);
+        assert!((found - 0.6).abs() < 1e-14, "{found}");
+        let found = share(&["a", "b", "a", "b"], &[0.0, 5.0, 2.0, 7.0]);
+        assert!((found - 23.0 / 27.0).abs() < 1e-14, "{found}");
+    }
+
     #[test]
     fn records_of_earthquakes_of_their_own_are_drawn_as_records() {
         let clusters = Clusters::from_labels(["a", "b", "c", "d"]);

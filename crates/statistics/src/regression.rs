@@ -186,6 +186,23 @@ mod tests {
         assert_eq!(count, 3);
     }
 
+    /// In clusters of one size with the same values of x, the variances are
+    /// those of the analysis of variance: here the means 0, 3 and 6 have the
+    /// mean square 18, the rest has 1/2 = 1/(6 - 3 - 1), and tau^2 =
+    /// (18 - 1/2)/2.
+    #[test]
+    fn a_balanced_line_has_the_deviations_of_its_mean_squares() {
+        let x = [-1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
+        let y = [-0.5, 0.5, 2.0, 4.0, 4.5, 7.5];
+        let clusters = Clusters::from_labels(["a", "a", "b", "b", "c", "c"]);
+        let found = mixed(&x, &y, &clusters).unwrap();
+        assert!((found.slope - 1.0).abs() < 1e-12);
+        let residual = found.residual_deviation;
+        assert!((residual - 0.5f64.sqrt()).abs() < 1e-6, "{residual}");
+        let between = found.event_deviation.unwrap();
+        assert!((between - 8.75f64.sqrt()).abs() < 1e-5, "{between}");
+    }
+
     #[test]
     fn pairs_that_make_no_line_are_refused() {
         let refused = |x: &[f64], y: &[f64]| line(x, y).unwrap_err();

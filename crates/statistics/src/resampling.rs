@@ -383,6 +383,18 @@ mod tests {
         assert!(of(&[], Resampling::Bootstrap).is_none());
     }
 
+    /// Clusters of 1, 1 and 2 records weigh as much as 4^2/6 = 8/3 of one
+    /// size: the variance of the draws, 10/3, counts 8/5 times.
+    #[test]
+    fn clusters_of_unequal_sizes_scatter_more_than_their_number_says() {
+        let clusters = Clusters::from_labels(["a", "b", "c", "c"]);
+        let (how, range) = (Resampling::Bootstrap, Range::Real);
+        let values = [1.0, 2.0, 4.0, 5.0];
+        let found = clusters.estimate(3.0, &values, how, range, 0.95).unwrap();
+        let square = found.standard_error * found.standard_error;
+        assert!((square - 16.0 / 3.0).abs() < 1e-12, "{square}");
+    }
+
     /// Cells that leave a region bias their share; the ends lie in the
     /// range.
     #[test]

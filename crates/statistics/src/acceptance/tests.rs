@@ -111,3 +111,13 @@ fn a_triangle_gives_its_correlations_back() {
     }
     assert!(root[6][6].abs() < 1e-12);
 }
+
+/// Quantiles of type 7, as R has them by default: of five values those at
+/// 25 and 75 % are the second and the fourth.
+#[test]
+fn the_central_part_of_shares_is_that_of_r() {
+    let band = NullBand { shares: vec![1.0, 0.25, 0.75, 0.0, 0.5] };
+    assert_eq!(band.central(0.5).unwrap().ends(), (0.25, 0.75));
+    let (low, high) = band.central(0.9).unwrap().ends();
+    assert!((low - 0.05).abs() < 1e-15 && (high - 0.95).abs() < 1e-15);
+}

@@ -28,7 +28,9 @@ fn each_blemish_has_its_code() {
     assert_eq!(codes(0.01, flat)[..1], ["flat"]);
     let offset = clean().iter().map(|a| a + 0.004).collect();
     assert_eq!(codes(0.01, offset), ["end-velocity", "offset"]);
-    assert_eq!(codes(0.0024, clean()), ["interval-rounded"]);
+    for dt_s in [0.0024, 0.03] {
+        assert_eq!(codes(dt_s, clean()), ["interval-rounded"], "{dt_s}");
+    }
     for dt_s in [0.001, 0.0025, 0.005, 0.01, 0.02, 1.0 / 410.0] {
         assert_eq!(codes(dt_s, clean()), [""; 0], "{dt_s}");
     }
@@ -83,6 +85,17 @@ fn a_recording_is_known_again_by_its_shape() {
         .filter_map(|(i, of)| of.map(|(first, _, count)| (i, first, count)))
         .collect();
     assert_eq!(others, [(0, 37, 1), (1, 35, 1), (35, 1, 1), (37, 0, 1)]);
+}
+
+/// The same numbers at another interval are another motion.
+#[test]
+fn records_of_different_intervals_are_not_one_recording() {
+    let alike = |dt_s: f64| {
+        let record = |dt_s| Accelerogram::try_new("x", dt_s, clean()).unwrap();
+        let both = [0.01, dt_s].map(|dt_s| Profile::of(&record(dt_s)));
+        duplicates(&both.each_ref()).iter().flatten().count()
+    };
+    assert_eq!((alike(0.01), alike(0.02)), (2, 0));
 }
 
 /// A remark names one record, however many are alike: their number squared

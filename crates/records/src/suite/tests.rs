@@ -109,6 +109,10 @@ fn study_components_come_from_the_index() {
             format!("pair \"p\" has 2 components, {study} for the study");
         assert!(refusal(&index).contains(&expected));
     }
+    let index = "file,dt_s,pair,study_component\n\
+        a,0.01,p,1\nb,0.01,p,0\nc,0.01,p,0\n";
+    let expected = "pair \"p\" has 3 components, 1 for the study";
+    assert!(refusal(index).contains(expected));
     let index = "file,dt_s,study_component\na,0.01,yes\n";
     assert_eq!(refusal(index), "i.csv:2: \"yes\": expected 1 or 0");
 }

@@ -119,6 +119,9 @@ fn times_have_the_digits_of_their_program() {
     let three = |i: u32| format!("{:.3}", f64::from(i) / 128.0);
     let record = read(&rows(&three, 3000)).unwrap();
     assert_eq!(record.accelerogram.dt_s(), 1.0 / 128.0);
+    let whole_ms = |i: u32| format!("{:.0}", f64::from(i) * 1000.0 / 128.0);
+    let text = format!("time_ms acc\n{}", rows(&whole_ms, 3000));
+    assert_eq!(read(&text).unwrap().accelerogram.dt_s(), 1.0 / 128.0);
     let fortran = |i: u32| format!("{:.6E}", f64::from(i) / 128.0);
     let record = read(&rows(&fortran, 3000)).unwrap();
     assert_eq!(record.accelerogram.dt_s(), 1.0 / 128.0);

@@ -376,6 +376,43 @@ fn ties_and_sizes_follow_from_the_statics() {
     }
 }
 
+/// A base is sought up to the width at which the object slides instead: its
+/// height times the friction, and no wider than it is high.
+#[test]
+fn the_friction_of_the_floor_bounds_the_width_of_a_base() {
+    let hazard = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
+    for (friction, widest) in [(0.7, 0.7 * 1.8), (9.0, 1.8)] {
+        let friction = Some(friction);
+        let own = [Object { friction, ..object("shelf", 0.6) }];
+        let found = under(hazard, &[], Some(1e15), &own);
+        assert_eq!(found.objects[0].target, Some(TargetVerdict::Misses));
+        let mut remedies = found.objects[0].remedies.iter();
+        let wider = remedies.find(|r| r.measure == RemedyKind::WiderBase);
+        let wider = wider.unwrap();
+        assert!((wider.size - widest).abs() < 1e-9, "{}", wider.size);
+        assert_eq!((wider.target, wider.return_period_years), (None, None));
+    }
+}
+
+/// An object meets a target if its whole interval does; here the value alone
+/// would meet the second.
+#[test]
+fn a_target_within_the_interval_is_neither_met_nor_missed() {
+    let hazard = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
+    let own = [object("shelf", 0.6)];
+    let found = under(hazard, &[], None, &own);
+    let years = found.objects[0].answer.return_period_years().unwrap();
+    let (low, value) = (years.ends().0, years.value());
+    assert!(low < value);
+    for (target, expected) in [
+        (0.99 * low, TargetVerdict::Meets),
+        (0.5 * (low + value), TargetVerdict::Undecided),
+    ] {
+        let found = under(hazard, &[], Some(target), &own);
+        assert_eq!(found.objects[0].target, Some(expected), "{target}");
+    }
+}
+
 /// Reach is half the width and the height from the centre; 1.8 + 0.25 m to
 /// the edge of the other object.
 #[test]

@@ -324,3 +324,17 @@ fn least(holds: impl Fn(f64) -> bool) -> f64 {
     }
     exp(high)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::up;
+
+    #[test]
+    fn sizes_are_rounded_up_to_a_whole_step() {
+        for (x, expected) in
+            [(0.5, 0.5), (0.501, 0.51), (0.509, 0.51), (0.0, 0.0)]
+        {
+            assert!((up(x) - expected).abs() < 1e-12, "{x}");
+        }
+    }
+}

@@ -116,6 +116,13 @@ fn measures_and_pulses_of_a_pair_are_listed() {
     let pulse = pulses.iter().find(|row| row["pulse"] == true).unwrap();
     let period = pulse["period_s"].as_f64().unwrap();
     assert!((period - 2.0).abs() < 0.4, "{period}");
+    // Samples in g are half as many m/s2 where gravity is half as strong.
+    let half = "records suite.csv --pulses --gravity 4.903325";
+    let half = super::json(&folder, half);
+    let fast = |of: &serde_json::Value| {
+        of["velocity_pulses"][0]["pgv_m_s"].as_f64().unwrap()
+    };
+    assert!((fast(&json) / fast(&half) - 2.0).abs() < 1e-12);
     let out = answer(
         &folder,
         "records --intensity --pulses --dt 0.01 --units g one.txt other.txt",

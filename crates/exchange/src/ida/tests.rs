@@ -104,6 +104,13 @@ fn as_many_curves_as_records_whatever_their_names() {
         let about = ("none", "x");
         let table = IdaTable::of(&found, &analysis, 9.81, about, known);
         assert_eq!(table.records().collect::<Vec<_>>(), names);
+        // The area of a lobe is its height times its interval.
+        for (rows, dt_s) in table.by_record().zip([0.2, 0.25, 0.3]) {
+            for row in rows {
+                let pgv_m_s = 9.81 * row.pga_g * dt_s;
+                assert!((row.pgv_m_s / pgv_m_s - 1.0).abs() < 1e-12);
+            }
+        }
         let curves = table.curves(Intensity::Pga).unwrap().curves;
         let overturning: Vec<_> =
             curves.iter().map(|(_, curve)| curve.overturning_im()).collect();

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -102,6 +103,31 @@ fn any_tiles_and_any_tasks_give_the_same_bytes() {
     }
     let first: &Vec<String> = &sums[0];
     assert!(sums.iter().all(|sum| sum == first), "{sums:?}");
+}
+
+/// The table of capacities counts the levels that the table of rows lists.
+#[test]
+fn unresolved_levels_are_counted_curve_by_curve() {
+    let place = tempfile::tempdir().unwrap();
+    let planned = plan(place.path(), 7);
+    run_all(&planned, 1);
+    let rows = |content| {
+        let text = read(&planned, content, 0).unwrap();
+        let mut rows = csv::Reader::from_reader(text.as_bytes());
+        let rows: Result<Vec<BTreeMap<String, String>>, _> =
+            rows.deserialize().collect();
+        rows.unwrap()
+    };
+    let (curves, levels) = (rows(Content::Capacities), rows(Content::Rows));
+    assert_eq!(curves.len(), 7 * 3);
+    for curve in curves {
+        let own = levels.iter().filter(|level| {
+            let same = |key| level[key] == curve[key];
+            same("id") && same("record") && level["refined"] == "false"
+        });
+        let open = own.filter(|level| level["resolved"] == "false").count();
+        assert_eq!(curve["unresolved"], open.to_string(), "{curve:?}");
+    }
 }
 
 #[test]

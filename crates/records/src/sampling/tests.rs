@@ -94,7 +94,7 @@ fn resolves(printing: Printing, dt_s: f64, times: &[f64]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(60))]
 
     /// The step comes back to the last bit wherever digits resolve it, and
     /// is refused elsewhere.

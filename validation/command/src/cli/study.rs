@@ -161,7 +161,6 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
-    note("the motions are read or made, then 15 blocks are analysed");
     let suites = suites(args)?;
     // Drawn on a terminal only.
     let bar = ProgressBar::new(0);

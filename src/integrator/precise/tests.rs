@@ -56,7 +56,7 @@ fn a_pulse_gives_in_double_double_what_it_gives_in_octuple_precision() {
 #[test]
 fn a_record_gives_in_double_double_what_it_gives_in_octuple_precision() {
     // Steps of 0.01, 0.03 (in parts) and 0.2 of 1/p: short and long series.
-    for (dt_s, count) in [(0.005, 150), (0.015, 70), (0.1, 25)] {
+    for (dt_s, count) in [(0.005, 400), (0.015, 200), (0.1, 40)] {
         let sample = |k: i32| {
             let t = dt_s * f64::from(k);
             libm::sin(4.0 * t) + 0.6 * libm::sin(11.0 * t + 1.0)

@@ -121,7 +121,7 @@ mod tests {
     /// Largest difference to linear interpolation at many intensities.
     fn difference(fragility: &TotalFragility, points: &[(f64, f64)]) -> f64 {
         let end = points[points.len() - 1].0;
-        (0..=4_000).map(|k| 1.2 * end * f64::from(k) / 4e3).fold(
+        (0..=20_000).map(|k| 1.2 * end * f64::from(k) / 2e4).fold(
             0.0,
             |worst: f64, x| {
                 let after = points.partition_point(|point| point.0 <= x);

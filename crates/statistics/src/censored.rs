@@ -228,9 +228,9 @@ mod tests {
         assert_eq!(middle(2.1), Some(2.0));
     }
 
-    /// Of 1 to 30 and a censored value, the quantile at 95 % lies between 29
-    /// and 30. A value censored there keeps its limit; one that lies beyond
-    /// it has that of the largest value up to it.
+    /// The 95 % quantile of 1 to 30 and one censored value is 29.95. A value
+    /// that is censored at this cut keeps its limit. The limit of a larger
+    /// value becomes the largest value below the cut.
     #[test]
     fn a_limit_at_the_cut_is_kept() {
         let mut values: Vec<f64> = (1..=30).map(f64::from).collect();

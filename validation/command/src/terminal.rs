@@ -95,7 +95,7 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     let say = || {
         let (message, length) = (bar.message(), bar.length().unwrap_or(0));
         let stage = if message.is_empty() { message } else { message + ": " };
-        note(&format!("{stage}{} of {length} done", bar.position()));
+        note(&format!("{stage}{} of {length} curves", bar.position()));
     };
     saying([Duration::from_secs(5), LOG_INTERVAL], &say, work)
 }

@@ -164,7 +164,7 @@ fn in_threads(args: &StudyCommand) -> Result<(), Failure> {
     let suites = suites(args)?;
     // Drawn on a terminal only.
     let bar = ProgressBar::new(0);
-    let template = "{msg}: {bar:40} {pos}/{len} chains";
+    let template = "{msg}: {bar:40} {pos}/{len} curves";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }

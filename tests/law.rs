@@ -19,6 +19,8 @@ use rocking_statistics::Clusters;
 use rocking_statistics::lognormal::fit_intervals;
 use serde::Deserialize;
 
+use super::support::suites;
+
 /// What the script found.
 #[derive(Deserialize)]
 struct Found {
@@ -170,7 +172,7 @@ fn a_cell_of_an_embedded_suite_is_found_again() {
         let ratio = capacity * average / record.pga_g();
         (ratio, ratio)
     };
-    let suite = rocking_synthesis::ordinary().unwrap();
+    let [suite, _] = suites();
     let ratios: Vec<(f64, f64)> = suite.iter().map(ratio).collect();
     let fitted = fit_intervals(&ratios, 0.0).unwrap().distribution;
     let is_own = |cell: &&Cell| {
@@ -190,7 +192,7 @@ fn a_cell_of_an_embedded_suite_is_found_again() {
 /// `assess` turns the law into PGA by the spectra of the records.
 #[test]
 fn an_assessment_has_the_law_beside_its_answer() {
-    let suite = rocking_synthesis::pulse().unwrap();
+    let [_, suite] = suites();
     let records: Vec<Accelerogram> =
         suite.iter().map(|pair| pair.components[0].clone()).collect();
     let object = |p_rad_s| {

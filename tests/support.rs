@@ -5,7 +5,9 @@ use std::fs;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
+use rocking_synthesis::Pair;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -168,4 +170,13 @@ pub fn motion(rhythm_rad_s: f64) -> Vec<f64> {
         0.4 * t * libm::exp(-t) * libm::sin(rhythm_rad_s * t)
     };
     (0..150).map(sample).collect()
+}
+
+/// The pairs of the embedded suites, ordinary and pulse-type, made once.
+pub fn suites() -> &'static [Vec<Pair>; 2] {
+    static MADE: LazyLock<[Vec<Pair>; 2]> = LazyLock::new(|| {
+        [rocking_synthesis::ordinary(), rocking_synthesis::pulse()]
+            .map(|suite| suite.expect("a suite"))
+    });
+    &MADE
 }

@@ -1,7 +1,6 @@
 //! Eight numbers at once. Each operation gives every lane the bits of a scalar
 //! operation.
 
-use std::array::from_fn;
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::number::Number;
@@ -112,12 +111,12 @@ impl Simd for Lanes {
 
     #[inline(always)]
     fn gather(from: [&f64; WIDTH]) -> Self {
-        Self(from.map(|x| *x))
+        Self(from_fn(|k| *from[k]))
     }
 
     #[inline(always)]
     fn gather_pairs(from: [&[f64; 2]; WIDTH]) -> (Self, Self) {
-        (Self(from.map(|pair| pair[0])), Self(from.map(|pair| pair[1])))
+        (Self(from_fn(|k| from[k][0])), Self(from_fn(|k| from[k][1])))
     }
 
     #[inline(always)]
@@ -158,6 +157,17 @@ impl Simd for Lanes {
     fn eq(self, other: Self) -> LaneMask {
         LaneMask(from_fn(|k| ones(self.0[k] == other.0[k])))
     }
+}
+
+/// The value of each lane. A loop, since the compiler makes calls of the
+/// functions on arrays of the standard library.
+#[inline(always)]
+fn from_fn<T: Copy + Default>(of: impl Fn(usize) -> T) -> [T; WIDTH] {
+    let mut all = [T::default(); WIDTH];
+    for (lane, value) in all.iter_mut().enumerate() {
+        *value = of(lane);
+    }
+    all
 }
 
 #[inline(always)]
@@ -206,7 +216,7 @@ impl Mask<Lanes> for LaneMask {
     #[inline(always)]
     fn select(self, yes: Lanes, no: Lanes) -> Lanes {
         Lanes(from_fn(|k| {
-            let [yes, no] = [yes, no].map(|lanes| lanes.0[k].to_bits());
+            let (yes, no) = (yes.0[k].to_bits(), no.0[k].to_bits());
             f64::from_bits((yes & self.0[k]) | (no & !self.0[k]))
         }))
     }
@@ -247,7 +257,7 @@ impl Neg for Lanes {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
+        Self(from_fn(|k| -self.0[k]))
     }
 }
 
@@ -268,7 +278,7 @@ impl Number for Lanes {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(self.0.map(f64::abs))
+        Self(from_fn(|k| self.0[k].abs()))
     }
 
     #[inline(always)]

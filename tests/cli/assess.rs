@@ -33,7 +33,7 @@ fn scene(name: &str) -> crate::support::Place {
 
 /// The normal distribution by Simpson's rule.
 fn normal_cdf(z: f64) -> f64 {
-    let n = 4000;
+    let n = 1600;
     let step = (z + 12.0) / f64::from(n);
     let density = |x: f64| exp(-0.5 * x * x);
     let sum: f64 = (0..=n)
@@ -70,7 +70,7 @@ fn frequency(shift: f64, median: f64, dispersion: f64) -> f64 {
         // The kink at the shift parts the piece.
         let cut = shift.clamp(x0, x1);
         let (from, to) = (log(cut), log(x1));
-        let n = 3000;
+        let n = 1000;
         let step = (to - from) / f64::from(n);
         let at = |i: i32| {
             let x = exp(from + step * f64::from(i));

@@ -4,17 +4,14 @@ use rocking::accelerogram::Accelerogram;
 use rocking_common::suites::inputs;
 use rocking_records::ReadOptions;
 
+use super::support::suites;
 use super::{answer, folder, refused};
 
 #[test]
 fn exported_suites_are_read_back_bit_for_bit() {
     let folder = folder("export", &[]);
     answer(&folder, "suite export --out out");
-    let suites = [
-        ("ordinary", rocking_synthesis::ordinary().unwrap()),
-        ("pulse", rocking_synthesis::pulse().unwrap()),
-    ];
-    for (name, pairs) in suites {
+    for (name, pairs) in ["ordinary", "pulse"].into_iter().zip(suites()) {
         let path = folder.join("out").join(format!("{name}.csv"));
         let suite = inputs::read_suite(&path, ReadOptions::default()).unwrap();
         let own = pairs.iter().flat_map(|pair| &pair.components);
@@ -27,7 +24,7 @@ fn exported_suites_are_read_back_bit_for_bit() {
             assert_eq!(bits(&member.accelerogram), bits(motion));
         }
         assert_eq!(suite.both().len(), pairs.len());
-        for ((study, _), pair) in suite.both().iter().zip(&pairs) {
+        for ((study, _), pair) in suite.both().iter().zip(pairs) {
             assert_eq!(study.accelerogram, pair.components[0]);
             let mw: f64 = study.attributes_by_name()["mw"].parse().unwrap();
             assert_eq!(mw, pair.scenario.mw);

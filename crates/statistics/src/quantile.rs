@@ -99,18 +99,24 @@ impl QuantileType {
         value.filter(|x| x.is_finite())
     }
 
+    fn of_sorted(self, sorted: &[f64], p: f64) -> Result<f64, QuantileError> {
+        self.by_rank(sorted.len(), |rank| sorted[rank], p)
+    }
+
     /// (1 - g) x_(j) + g x_(j+1), with j + g = n p + m; m by the type. As in
     /// R, g within a few rounding errors of a whole number is that number,
-    /// so that a weight of zero never touches its neighbour.
-    pub(crate) fn of_sorted(
+    /// so that a weight of zero never touches its neighbour. `value` gives
+    /// x_(j) of the `count` values for j - 1.
+    pub(crate) fn by_rank(
         self,
-        sorted: &[f64],
+        count: usize,
+        value: impl Fn(usize) -> f64,
         p: f64,
     ) -> Result<f64, QuantileError> {
         if !(0.0..=1.0).contains(&p) {
             return Err(QuantileError::Probability(p));
         }
-        let n = sorted.len() as f64;
+        let n = count as f64;
         // From type 4 on, of the plotting position (k - a)/(n + 1 - a - b).
         let (a, b) = match self.0 {
             4 => (0.0, 1.0),
@@ -136,7 +142,7 @@ impl QuantileType {
             _ if exact => 0.0,
             _ => remainder,
         };
-        let at = |rank: f64| sorted[rank.clamp(1.0, n) as usize - 1];
+        let at = |rank: f64| value(rank.clamp(1.0, n) as usize - 1);
         let (low, high) = (at(j), at(j + 1.0));
         Ok(if weight <= 0.0 || low == high {
             low

@@ -313,11 +313,22 @@ impl RecordRanks {
     /// Quantile of type 5 of a replicate: infinite if an infinite value has
     /// weight, NaN if there is no value.
     pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
-        let drawn = self.drawn(counts);
-        if drawn.is_empty() {
+        let of = |(_, record): &(f64, usize)| counts[*record] as usize;
+        let count: usize = self.0.iter().map(of).sum();
+        if count == 0 {
             return f64::NAN;
         }
-        QuantileType::default().of_sorted(&drawn, p).unwrap_or(f64::NAN)
+        let at = |rank: usize| {
+            let mut below = rank;
+            let holds = |one: &&(f64, usize)| {
+                let own = of(one);
+                let here = below < own;
+                below = below.saturating_sub(own);
+                here
+            };
+            self.0.iter().find(holds).map_or(f64::NAN, |(x, _)| *x)
+        };
+        QuantileType::default().by_rank(count, at, p).unwrap_or(f64::NAN)
     }
 
     /// Median of a replicate.

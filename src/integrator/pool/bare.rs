@@ -113,10 +113,11 @@ impl BareGroup {
     /// the series of sin d and 1 - cos d.
     #[inline(always)]
     fn step<V: Simd>(&mut self, samples: &[f64]) {
-        let ahead = V::gather(std::array::from_fn(|lane| {
-            samples.get(self.next[lane]).unwrap_or(&f64::NAN)
-        }));
-        let ahead = ahead * V::load(&self.amplitude);
+        let mut places = [&f64::NAN; WIDTH];
+        for (place, next) in places.iter_mut().zip(self.next) {
+            *place = samples.get(next).unwrap_or(&f64::NAN);
+        }
+        let ahead = V::gather(places) * V::load(&self.amplitude);
         let (u, w, f) =
             (V::load(&self.u), V::load(&self.w), V::load(&self.here));
         let (h, rise) = (V::load(&self.step), ahead - f);

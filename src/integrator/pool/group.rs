@@ -255,11 +255,13 @@ impl<'a> LaneGroup<'a> {
         &mut self,
         model: Model,
     ) -> (u8, u8) {
-        let ahead = V::gather(std::array::from_fn(|lane| {
-            let sample = self.samples[lane].get(self.next[lane] as usize);
-            sample.unwrap_or(&f64::NAN)
-        }));
-        let ahead = ahead * V::load(&self.motion.amplitude);
+        let mut places = [&f64::NAN; WIDTH];
+        for (place, (samples, next)) in
+            places.iter_mut().zip(self.samples.iter().zip(self.next))
+        {
+            *place = samples.get(next as usize).unwrap_or(&f64::NAN);
+        }
+        let ahead = V::gather(places) * V::load(&self.motion.amplitude);
         let (u, w) = (V::load(&self.motion.u), V::load(&self.motion.w));
         let here = V::load(&self.motion.here);
         let rate = (ahead - here) * V::load(&self.fixed.inverse);

@@ -177,7 +177,12 @@ fn floor<V: Simd>(x: V) -> (V, [usize; LANES]) {
     let floor = x.lt(nearest).select(less, nearest);
     let mut sums = Lanes::splat(0.0);
     (floor + whole).store(&mut sums);
-    (floor, sums.0.map(|sum| sum.to_bits() as u32 as usize))
+    // Loops: the compiler makes calls of `map` on arrays.
+    let mut places = [0; LANES];
+    for (place, sum) in places.iter_mut().zip(sums.0) {
+        *place = sum.to_bits() as u32 as usize;
+    }
+    (floor, places)
 }
 
 /// Knots of Phi and of its derivative times their distance of 1/128.
@@ -203,8 +208,12 @@ fn phi<V: Simd>(knots: &[[f64; 2]], z: V) -> V {
     let position = position * V::from_f64(STEPS_PER_UNIT);
     let (floor, cells) = floor(position);
     let t = position - floor;
-    let (f0, d0) = V::gather_pairs(cells.map(|cell| &knots[cell]));
-    let (f1, d1) = V::gather_pairs(cells.map(|cell| &knots[cell + 1]));
+    let [mut from, mut to] = [[&knots[0]; LANES]; 2];
+    for (lane, cell) in cells.into_iter().enumerate() {
+        (from[lane], to[lane]) = (&knots[cell], &knots[cell + 1]);
+    }
+    let (f0, d0) = V::gather_pairs(from);
+    let (f1, d1) = V::gather_pairs(to);
     let (rise, rest) = (f1 - f0, V::from_f64(1.0) - t);
     let (a, b) = (d0 - rise, rise - d1);
     f0 + t * (rise + rest * (a * rest + b * t))

@@ -3,9 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use anyhow::{Context as _, Result, bail, ensure};
+use rocking_synthesis::SuiteKind;
 use serde::Deserialize;
 
-use super::method::{Context, Reply, input_of};
+use super::method::{Context, Reply, input_of, suite as pairs_of};
 use crate::cases::Case;
 use crate::engine::Core;
 use crate::references;
@@ -155,17 +156,12 @@ pub fn levels(context: &Context, answer: &mut Reply) -> Result<()> {
 /// reference block against the record as it is on the adjusted block.
 pub fn adjustment(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context;
-        suite: String, slenderness_rad: f64, frequency_rad_s: f64,
+        suite: SuiteKind, slenderness_rad: f64, frequency_rad_s: f64,
         /// PGA/(g alpha).
         intensities: Vec<f64>,
     }
-    let suite = match suite.as_str() {
-        "ordinary" => rocking_synthesis::ordinary(),
-        "pulse" => rocking_synthesis::pulse(),
-        other => bail!("suite `{other}`"),
-    }?;
     let mut differences = Vec::new();
-    for pair in &suite {
+    for pair in pairs_of(suite)?.iter() {
         let record = &pair.components[0];
         for &im in &intensities {
             let alpha = slenderness_rad;

@@ -3,9 +3,10 @@
 
 use anyhow::{Result, bail};
 use rocking::accelerogram::Accelerogram;
+use rocking_synthesis::{Pair, SuiteKind};
 use serde::Deserialize;
 
-use super::method::{Context, Reply, SPEEDS};
+use super::method::{Context, Reply, SPEEDS, suite};
 use crate::engine::Core;
 use crate::references;
 use crate::scene::{CaseScene, Engine, Forcing, Model, PulseName};
@@ -172,7 +173,7 @@ pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
         slenderness_rad: Vec<f64>,
         frequencies_rad_s: Vec<f64>, intensity: f64,
     }
-    let suite = rocking_synthesis::pulse()?;
+    let suite = suite(SuiteKind::PulseType)?;
     let closed_form =
         |alpha: f64| (libm::sin(alpha) / alpha) / (libm::sin(0.1) / 0.1);
     let mut left = Vec::new();
@@ -183,16 +184,18 @@ pub fn sine_bias(context: &Context, answer: &mut Reply) -> Result<()> {
             let scene = CaseScene::new([alpha, p, 9.81], 0.92, forcing);
             anyhow::Ok(context.engine.respond(&scene)?.peak_ratio)
         };
+        let of = |pair: &Pair| peak(0.1, &pair.components[0]);
+        let references = suite.iter().map(of).collect::<Result<Vec<f64>>>()?;
         let mut worst: f64 = 0.0;
         let adjusted = slenderness_rad.is_empty().then_some(None);
         let given = slenderness_rad.iter().copied().map(Some);
         for given in given.chain(adjusted) {
             let mut ratios = Vec::new();
-            for pair in &suite {
+            for (pair, reference) in suite.iter().zip(&references) {
                 let record = &pair.components[0];
                 let own = libm::atan(record.pga_g() / intensity);
                 let alpha = given.unwrap_or(own);
-                let ratio = peak(alpha, record)? / peak(0.1, record)?;
+                let ratio = peak(alpha, record)? / reference;
                 let form = given.map_or_else(|| closed_form(alpha), |_| 1.0);
                 ratios.push(ratio / form);
             }

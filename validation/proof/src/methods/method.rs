@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use anyhow::{Context as _, Result};
 use rocking::integrator::{HistoryPoint, Observe};
 use rocking_statistics::Clusters;
+use rocking_synthesis::{Pair, SuiteKind};
 use serde::de::DeserializeOwned;
 
 use crate::cases::Case;
@@ -179,4 +180,16 @@ impl<K: Ord, T> Memo<K, T> {
         lock().insert(key, Arc::clone(&found));
         Ok(found)
     }
+}
+
+static SUITES: Memo<SuiteKind, Pair> = Memo::new();
+
+/// The pairs of an embedded suite.
+pub(super) fn suite(kind: SuiteKind) -> Result<Arc<Vec<Pair>>> {
+    SUITES.get(kind, |kind| {
+        Ok(match kind {
+            SuiteKind::Ordinary => rocking_synthesis::ordinary(),
+            SuiteKind::PulseType => rocking_synthesis::pulse(),
+        }?)
+    })
 }

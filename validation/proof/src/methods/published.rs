@@ -8,9 +8,10 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{self, Analysis, Batch, Grid, IdaCurve};
 use rocking::names::named;
 use rocking_statistics::{ExtendedSample, QuantileType};
+use rocking_synthesis::SuiteKind;
 
 use super::cells::Csv;
-use super::method::{Context, Reply, WrongModel};
+use super::method::{Context, Reply, WrongModel, suite};
 
 named! {
     /// A law that a source states.
@@ -176,9 +177,9 @@ const RECORDED: Csv = Csv::new("comparison/published.csv");
 pub fn laws(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context; law: PublishedLaw }
     let mut found = Vec::new();
-    for suite in [rocking_synthesis::ordinary()?, rocking_synthesis::pulse()?]
-    {
-        let first = suite.into_iter().map(|pair| pair.components[0].clone());
+    for kind in SuiteKind::ALL {
+        let suite = suite(kind)?;
+        let first = suite.iter().map(|pair| pair.components[0].clone());
         let motions: Vec<Accelerogram> = first.collect();
         let all = statistics(law, &motions, context.wrong)?;
         found.extend(all.into_iter().map(|own| (own.quantity, own.value)));

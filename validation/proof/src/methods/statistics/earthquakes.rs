@@ -23,7 +23,7 @@ use serde::Deserialize;
 
 use super::truths::{SuiteShape, percentiles, share, trials};
 use crate::methods::cells::Csv;
-use crate::methods::method::{Context, Reply, WrongModel};
+use crate::methods::method::{Context, Memo, Reply, WrongModel};
 
 const VALUES: Csv = Csv::new("oracles/earthquakes.csv");
 
@@ -80,15 +80,48 @@ pub fn rates(context: &Context, answer: &mut Reply) -> Result<()> {
 /// same law above 1.
 pub fn coverage_of_fits(context: &Context, answer: &mut Reply) -> Result<()> {
     input! { context; suite: SuiteShape, intraclass: f64, trials: u64, }
-    let found = self::trials(trials, |index| {
-        let suite = Simulated::new(context, suite, intraclass, index);
-        suite.fit_holds(context.wrong, index)
+    let by_record = context.is(WrongModel::RecordsAsUnit);
+    let found = FITS.get((context.case.id.clone(), by_record), |_| {
+        self::trials(trials, |index| {
+            let suite = Simulated::new(context, suite, intraclass, index);
+            suite.intervals(index)
+        })
     })?;
     for k in 0..5 {
-        let held: Vec<bool> = found.iter().map(|held| held[k].1).collect();
-        answer.put(found[0][k].0, [share(&held)], [0.95]);
+        let holds = |suite: &[FitInterval; 5]| suite[k].holds(context.wrong);
+        let held: Vec<bool> = found.iter().map(holds).collect();
+        answer.put(found[0][k].name, [share(&held)], [0.95]);
     }
     Ok(())
+}
+
+/// Intervals by case, and whether records are the unit of resampling.
+static FITS: Memo<(String, bool), [FitInterval; 5]> = Memo::new();
+
+/// An interval of a fit, and what wrong models make of its replicates.
+struct FitInterval {
+    name: &'static str,
+    estimate: Option<Estimate>,
+    drawn: Vec<f64>,
+    /// Normal quantile over Student's.
+    ratio: f64,
+    truth: f64,
+}
+
+impl FitInterval {
+    fn holds(&self, wrong: Option<WrongModel>) -> bool {
+        let ends = match (wrong, self.estimate) {
+            (Some(WrongModel::Percentiles), _) => {
+                percentiles(&self.drawn, 0.95)
+            }
+            (Some(WrongModel::NormalForStudent), Some(of)) => {
+                let nearer = |x| of.value() * pow(x / of.value(), self.ratio);
+                of.interval().map(|ends| ends.map(nearer))
+            }
+            (_, of) => of.and_then(|of| of.interval()),
+        };
+        ends.is_some_and(|ends| ends.holds(self.truth))
+    }
 }
 
 /// Capacities of one suite.
@@ -148,12 +181,8 @@ impl Simulated {
         Ok(found.median.interval().is_some_and(|ends| ends.holds(1.0)))
     }
 
-    /// For each interval of a fit, its name and whether it covers the truth.
-    fn fit_holds(
-        &self,
-        wrong: Option<WrongModel>,
-        seed: u64,
-    ) -> Result<[(&'static str, bool); 5]> {
+    /// The intervals of a fit.
+    fn intervals(&self, seed: u64) -> Result<[FitInterval; 5]> {
         const AT: f64 = 0.7;
         let sample = CensoredSample::try_new(&self.values(), &[])?;
         let options = FitOptions {
@@ -165,35 +194,31 @@ impl Simulated {
         let fitted = sample.fit(0.0, options.method)?.distribution;
         let sampled = options.sampled(&sample)?.context(none)?;
         let student = self.drawn.student(0.95).context(none)?;
-        let holds = |of: Option<Estimate>, drawn: &[f64], truth: f64| {
-            let ends = match (wrong, of) {
-                (Some(WrongModel::Percentiles), _) => percentiles(drawn, 0.95),
-                (Some(WrongModel::NormalForStudent), Some(of)) => {
-                    let ratio = normal::quantile(0.975) / student;
-                    let nearer = |x| of.value() * pow(x / of.value(), ratio);
-                    of.interval().map(|ends| ends.map(nearer))
-                }
-                (_, of) => of.and_then(|of| of.interval()),
-            };
-            ends.is_some_and(|ends| ends.holds(truth))
+        let ratio = normal::quantile(0.975) / student;
+        let interval = |name, estimate, drawn: Vec<f64>, truth| FitInterval {
+            name,
+            estimate,
+            drawn,
+            ratio,
+            truth,
         };
         let drawn = |of: &dyn Fn(&TotalFragility) -> f64| {
             let of = |law: &Option<_>| law.as_ref().map_or(f64::NAN, of);
             sampled.fitted.iter().map(of).collect::<Vec<f64>>()
         };
-        let of_law = |of: fn(&Lognormal) -> f64, truth: f64| {
+        let of_law = |name, of: fn(&Lognormal) -> f64, truth: f64| {
             let drawn = drawn(&|law| of(law.records()));
             let (how, range) = (Resampling::Bootstrap, Range::NotNegative);
             let point = of(&fitted);
             let found = self.drawn.estimate(point, &drawn, how, range, 0.95);
-            holds(found.map(|found| found.estimate), &drawn, truth)
+            interval(name, found.map(|found| found.estimate), drawn, truth)
         };
         let band = sampled.band(&fitted.into(), &[AT]).points[0].probability;
         let drawn = drawn(&|law| law.cdf(AT));
         let truth = Lognormal::try_new(0.0, 0.0, DISPERSION)?.cdf(AT);
         // Cornell's closed form.
         let cornell = 1e-4 * exp(0.5 * 2.5 * 2.5 * DISPERSION * DISPERSION);
-        let frequency = |shift: f64, truth: f64| -> Result<bool> {
+        let frequency = |name, shift: f64, truth: f64| -> Result<_> {
             let text = if shift > 0.0 { HAZARD_ABOVE } else { HAZARD };
             let hazard = Hazard::parse("h", text, &HazardOptions::default())?;
             let above = |law: &Lognormal| {
@@ -212,14 +237,14 @@ impl Simulated {
             let found = risk(&hazard, &[of], 50.0)?.fragilities.remove(0);
             let own = found.sampling.context(none)?;
             let drawn = own.drawn_annual_frequencies;
-            Ok(holds(Some(own.annual_frequency), &drawn, truth))
+            Ok(interval(name, Some(own.annual_frequency), drawn, truth))
         };
         Ok([
-            ("median", of_law(Lognormal::median, 1.0)),
-            ("dispersion", of_law(Lognormal::dispersion, DISPERSION)),
-            ("probability", holds(Some(band), &drawn, truth)),
-            ("frequency", frequency(0.0, cornell)?),
-            ("frequency-above-shift", frequency(1.0, ABOVE_SHIFT)?),
+            of_law("median", Lognormal::median, 1.0),
+            of_law("dispersion", Lognormal::dispersion, DISPERSION),
+            interval("probability", Some(band), drawn, truth),
+            frequency("frequency", 0.0, cornell)?,
+            frequency("frequency-above-shift", 1.0, ABOVE_SHIFT)?,
         ])
     }
 }

@@ -9,6 +9,7 @@ use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 use rocking_records::{Processing, ReadOptions, SetAside};
 use rocking_statistics::Clusters;
+use rocking_statistics::resampling::FEWEST_DRAWS;
 
 use crate::answers;
 use crate::basis::{self, FindingSets};
@@ -53,7 +54,8 @@ fn plan() -> Plan {
         tolerance: 1e-4,
         way: Execution::default(),
     };
-    Plan { setup, arms: vec![Arm::A, Arm::B, Arm::C], full: false }
+    let arms = vec![Arm::A, Arm::B, Arm::C];
+    Plan { setup, arms, full: false, replicates: FEWEST_DRAWS }
 }
 
 /// Results of nothing on the embedded suites.

@@ -13,7 +13,7 @@ use crate::analyses::{Deviation, StripeDemands, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
-use crate::inference::{REPLICATES, Resample, Resamples};
+use crate::inference::{Resample, Resamples};
 use crate::measures::ranks;
 use crate::questions::{self, StudyAnswer};
 use crate::results::StudyResults;
@@ -52,7 +52,10 @@ pub fn study_findings(
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION").into(),
         settings: results.plan.settings(),
-        suites: results.suites().map(suite).into(),
+        suites: results
+            .suites()
+            .map(|own| suite(own, results.plan.replicates))
+            .into(),
         claims,
         tables: tables.into(),
         questions: questions::findings(answers),
@@ -75,7 +78,7 @@ fn table(topic: Topic, rows: Vec<TableRow>) -> FindingsTable {
 }
 
 /// A suite of a study, and the work on it.
-fn suite(suite: &SuiteResults) -> SuiteSummary {
+fn suite(suite: &SuiteResults, replicates: usize) -> SuiteSummary {
     let certainty = &suite.work.certainty;
     let name = |record: &usize| suite.records[*record].name.clone();
     SuiteSummary {
@@ -87,7 +90,7 @@ fn suite(suite: &SuiteResults) -> SuiteSummary {
         sha256: suite.sha256.clone(),
         list: suite.list.clone(),
         shown_alone: suite.chosen.iter().map(name).collect(),
-        remarks: remarks(suite),
+        remarks: remarks(suite, replicates),
         set_aside: set_aside(&suite.set_aside),
         analyses: suite.work.analyses,
         unresolved: certainty.unresolved,
@@ -97,8 +100,8 @@ fn suite(suite: &SuiteResults) -> SuiteSummary {
 }
 
 /// Remarks on the records of a suite and, for few earthquakes, on the intervals.
-fn remarks(suite: &SuiteResults) -> Option<String> {
-    let on_intervals = suite.clusters.remark(REPLICATES);
+fn remarks(suite: &SuiteResults, replicates: usize) -> Option<String> {
+    let on_intervals = suite.clusters.remark(replicates);
     let on_intervals = on_intervals.map(|own| capital(&own.to_string()) + ".");
     let all = suite.remarks.clone().into_iter().chain(on_intervals);
     all.reduce(|a, b| format!("{a} {b}"))

@@ -53,12 +53,12 @@ pub struct Resamples {
 impl Resamples {
     /// The resamples of suites of these earthquakes, ordinary and
     /// pulse-type. Streams: `study/records/SUITE`, of seed 0.
-    pub fn new(clusters: [Clusters; 2]) -> Self {
+    pub fn new(clusters: [Clusters; 2], replicates: usize) -> Self {
         let drawn = |suite: SuiteKind| -> Vec<Vec<u32>> {
             let name = format!("study/records/{suite}");
             let own = &clusters[suite as usize];
-            let draws = Bootstrap::of_clusters(&name, 0, own, REPLICATES);
-            (0..REPLICATES as u64).map(|i| draws.multiplicities(i)).collect()
+            let draws = Bootstrap::of_clusters(&name, 0, own, replicates);
+            (0..replicates as u64).map(|i| draws.multiplicities(i)).collect()
         };
         Self {
             whole: clusters.each_ref().map(|own| vec![1; own.records()]),
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn suites_are_drawn_independently_and_records_jointly() {
-        let draws = Resamples::new([30, 30].map(Clusters::singletons));
+        let draws = Resamples::new([30, 30].map(Clusters::singletons), 2000);
         let both = |draw: Resample<'_>| {
             let of = |suite| f64::from(draw.of(suite)[0]);
             vec![of(SuiteKind::Ordinary), of(SuiteKind::PulseType)]
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn ties_are_avoided_by_leaving_two_earthquakes_out() {
-        let draws = Resamples::new([7, 8].map(Clusters::singletons));
+        let draws = Resamples::new([7, 8].map(Clusters::singletons), 100);
         let held = |draw: Resample<'_>| {
             let counts = draw.of(SuiteKind::PulseType);
             vec![f64::from(counts.iter().sum::<u32>())]

@@ -22,7 +22,8 @@ pub struct StudyResults {
 impl StudyResults {
     /// The draws of the earthquakes that bands and claims share.
     pub fn draws(&self) -> Resamples {
-        Resamples::new(self.suites().map(|s| s.clusters.clone()))
+        let clusters = self.suites().map(|s| s.clusters.clone());
+        Resamples::new(clusters, self.plan.replicates)
     }
 
     /// Whether both suites are the embedded ones.

@@ -24,6 +24,7 @@ use rocking_report::output::{self, Files};
 use rocking_report::stale;
 use rocking_study::Study;
 use rocking_study::analyses::Plan;
+use rocking_study::inference::REPLICATES;
 use rocking_study::runs::Setup;
 
 /// Default folder of a study.
@@ -235,5 +236,5 @@ fn plan(args: &StudyCommand) -> Result<Plan, Failure> {
         tolerance: args.refine,
         way: args.way.way()?,
     };
-    Ok(Plan { setup, arms, full: args.full })
+    Ok(Plan { setup, arms, full: args.full, replicates: REPLICATES })
 }

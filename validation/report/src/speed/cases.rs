@@ -18,6 +18,7 @@ pub const ETA: f64 = 0.92;
 const SHARES: [f64; 5] = [0.80, 0.85, 0.90, 0.95, 1.0];
 
 /// One analysis.
+#[derive(Clone)]
 pub struct SpeedCase {
     /// `ordinary-01-a-p1-a0.05`.
     pub name: String,

@@ -1,6 +1,7 @@
 //! Tests of what is measured, never of how long it takes.
 
 use std::fs;
+use std::sync::LazyLock;
 
 use rocking::block::Block;
 
@@ -10,9 +11,12 @@ use super::measured::{TimingRow, read_answers, row, text};
 use super::parse;
 use super::rest::{GroundRecord, chatter_s};
 
+static CASES: LazyLock<Vec<cases::SpeedCase>> =
+    LazyLock::new(|| cases::speed_cases().expect("cases"));
+
 #[test]
 fn cases_have_names_of_their_own_and_our_answers_are_right() {
-    let cases = cases::speed_cases().expect("cases");
+    let cases = &*CASES;
     assert_eq!(cases.len(), 30);
     let mut names: Vec<&str> = cases.iter().map(|c| c.name.as_str()).collect();
     names.sort_unstable();
@@ -64,7 +68,7 @@ fn uplift_is_at_the_crossing_and_points_away() {
 
 #[test]
 fn answers_of_other_tools_are_judged_or_refused() {
-    let case = cases::speed_cases().expect("cases").swap_remove(0);
+    let case = CASES[0].clone();
     let reference = ToolAnswer::reference(&case).expect("reference");
     let known = [(case, reference)];
     let (case, reference) = &known[0];

@@ -13,6 +13,10 @@ pub struct Plan {
     pub arms: Vec<Arm>,
     /// Whether other choices are run on all blocks.
     pub full: bool,
+    /// Replicates of the bootstrap, [`REPLICATES`] in a study to keep.
+    ///
+    /// [`REPLICATES`]: crate::inference::REPLICATES
+    pub replicates: usize,
 }
 
 impl Plan {

@@ -75,8 +75,8 @@ const SHARE_NAMES: [&str; 3] = [
     "models-of-the-harness-named",
 ];
 
-/// Their values by scatter.
-static SHARES: Memo<u64, f64> = Memo::new();
+/// Their values by case and scatter.
+static SHARES: Memo<(String, u64), f64> = Memo::new();
 
 /// Shares of codes whose diagnosis is right: of the right code, of every
 /// wrong model and pair on its own answers, of wrong models by the core on
@@ -110,7 +110,7 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
         let own = noisy("right", &|place, _| right.get(place).cloned());
         let none = diagnose(&own, &[]).verdict == CodeVerdict::None;
         answer.see("right-code-told-none", [f64::from(none)]);
-        let make = |_: &u64| {
+        let make = |_: &_| {
             let (mut named, mut guessed, mut singles) = (0.0, 0.0, 0.0);
             for (model, name) in set.models.iter().enumerate() {
                 let own = noisy(name, &|_, item| item.wrong[model].clone());
@@ -141,7 +141,8 @@ pub fn diagnosis(context: &Context, answer: &mut Reply) -> Result<()> {
             let named = named / set.models.len() as f64;
             Ok(vec![named, guessed / singles, good / altered.len() as f64])
         };
-        let shares = SHARES.get(scatter.to_bits(), make)?;
+        let shares =
+            SHARES.get((context.case.id.clone(), scatter.to_bits()), make)?;
         for (name, share) in SHARE_NAMES.into_iter().zip(shares.iter()) {
             answer.see(name, [*share]);
         }

@@ -405,8 +405,8 @@ fn reading_line(name: &str, help: &str) -> Option<String> {
     reads.then_some(line)
 }
 
-/// Runs commands on hostile files while `meanwhile` goes on, which counts the
-/// memory of this process; the commands take that of their own.
+/// Runs commands on hostile files, each a process with its own memory, while
+/// `meanwhile` measures the memory of this process.
 fn no_command_takes_more_than_its_share(meanwhile: impl FnOnce()) {
     let program = env!("CARGO_BIN_EXE_rocking");
     let help = |arguments: &[&str]| {

@@ -159,8 +159,8 @@ impl Simd for Lanes {
     }
 }
 
-/// The value of each lane. A loop, since the compiler makes calls of the
-/// functions on arrays of the standard library.
+/// The value of each lane. A loop, since the functions on arrays of the
+/// standard library are compiled as calls.
 #[inline(always)]
 fn from_fn<T: Copy + Default>(of: impl Fn(usize) -> T) -> [T; WIDTH] {
     let mut all = [T::default(); WIDTH];

@@ -15,8 +15,9 @@ fn pulse_periods_of_real_pairs_are_those_of_the_list() {
     for index in ["pulse.csv", "ordinary.csv"] {
         let Some(path) = real(index) else { return };
         let suite = Suite::read(&path, &options()).unwrap();
-        // Every seventh pair: all of them take 45 s of two processors, and of
-        // fewer one ordinary pair in ten is too many.
+        // Every seventh pair: all of them take 45 s of two processors. Of
+        // fewer than ten ordinary pairs, one pulse is more than the tenth
+        // allowed below.
         let pairs: Vec<_> = suite.both().into_iter().step_by(7).collect();
         let found: Vec<(Option<f64>, Option<f64>)> = pairs
             .par_iter()

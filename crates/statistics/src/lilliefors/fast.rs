@@ -177,7 +177,7 @@ fn floor<V: Simd>(x: V) -> (V, [usize; LANES]) {
     let floor = x.lt(nearest).select(less, nearest);
     let mut sums = Lanes::splat(0.0);
     (floor + whole).store(&mut sums);
-    // Loops: the compiler makes calls of `map` on arrays.
+    // A loop, since `map` on an array is compiled as a call.
     let mut places = [0; LANES];
     for (place, sum) in places.iter_mut().zip(sums.0) {
         *place = sum.to_bits() as u32 as usize;

@@ -27,7 +27,7 @@ fn mistaken(context: &Context, scene: &Problem) -> Problem {
 /// of outcomes and counts that differ.
 pub fn certified(context: &Context, answer: &mut Reply) -> Result<()> {
     let (mut worst, mut wrong) = (0.0_f64, 0.0);
-    // Some scenes show a wrong model.
+    // One scene in eight is enough to reject a wrong model.
     let step = if context.wrong.is_some() { 8 } else { 1 };
     let scenes = reference().scenes.iter().enumerate();
     for (index, scene) in scenes.step_by(step) {

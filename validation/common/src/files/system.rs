@@ -5,7 +5,6 @@ use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use rustix::io::Errno;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
 /// How the names of unfinished files and folders begin and end.
@@ -129,13 +128,26 @@ pub(super) fn tried(path: &Path) -> io::Result<Lock> {
     })
 }
 
-/// Whether an error of a lock means that the file system has no locks: Lustre
-/// without `flock`, NFS without its daemon, some in user space.
+/// Errors of a lock on a file system without locks: Lustre without `flock`, NFS
+/// without its daemon, some in user space.
+#[cfg(unix)]
+const NO_LOCKS: &[i32] = {
+    use rustix::io::Errno;
+    &[
+        Errno::NOSYS.raw_os_error(),
+        Errno::OPNOTSUPP.raw_os_error(),
+        Errno::NOLCK.raw_os_error(),
+    ]
+};
+/// The same on Windows: ERROR_INVALID_FUNCTION and ERROR_NOT_SUPPORTED.
+#[cfg(not(unix))]
+const NO_LOCKS: &[i32] = &[1, 50];
+
+/// Whether an error of a lock means that the file system has no locks.
 fn has_no_locks(error: &io::Error) -> bool {
-    const NONE: [Errno; 3] = [Errno::NOSYS, Errno::OPNOTSUPP, Errno::NOLCK];
     let code = error.raw_os_error();
     error.kind() == io::ErrorKind::Unsupported
-        || NONE.iter().any(|none| code == Some(none.raw_os_error()))
+        || code.is_some_and(|code| NO_LOCKS.contains(&code))
 }
 
 /// Comes before each call; a test makes it fail.

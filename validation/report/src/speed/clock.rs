@@ -1,24 +1,23 @@
 //! CPU time and memory of this process.
 
-use rustix::time::{ClockId, Timespec};
+use cpu_time::{ProcessTime, ThreadTime};
 
 /// CPU time of this thread, in s.
-pub fn thread_s() -> f64 {
-    seconds(ClockId::ThreadCPUTime)
-}
-
-/// CPU time of all threads of this process, in s.
-pub fn process_s() -> f64 {
-    seconds(ClockId::ProcessCPUTime)
-}
-
 #[expect(
     clippy::disallowed_methods,
     reason = "measuring time is what `rocking speed` is for"
 )]
-fn seconds(clock: ClockId) -> f64 {
-    let Timespec { tv_sec, tv_nsec } = rustix::time::clock_gettime(clock);
-    (tv_nsec as f64).mul_add(1e-9, tv_sec as f64)
+pub fn thread_s() -> f64 {
+    ThreadTime::now().as_duration().as_secs_f64()
+}
+
+/// CPU time of all threads of this process, in s.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "measuring time is what `rocking speed` is for"
+)]
+pub fn process_s() -> f64 {
+    ProcessTime::now().as_duration().as_secs_f64()
 }
 
 /// Least CPU time (s) of this thread per call of `work`, over `batches`

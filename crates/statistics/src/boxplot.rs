@@ -1,8 +1,8 @@
 //! Notched boxplots, with an exact interval of the median beside the notch.
 
-use statrs::distribution::{Binomial, DiscreteCDF as _};
 use thiserror::Error;
 
+use super::beta::binomial_cdf;
 use super::{ExtendedSample, Interval, QuantileType};
 
 /// The upper quartile falls on a censored value: there is no boxplot.
@@ -130,8 +130,7 @@ pub fn median_interval(
     level: f64,
 ) -> Option<MedianInterval> {
     let n = sample.len();
-    let binomial = Binomial::new(0.5, n as u64).ok()?;
-    let coverage = |k: usize| 1.0 - 2.0 * binomial.cdf(k as u64 - 1);
+    let coverage = |k: usize| 1.0 - 2.0 * binomial_cdf(n, k - 1);
     let rank = (1..=n.div_ceil(2)).rev().find(|&k| coverage(k) >= level)?;
     let sorted = sample.sorted();
     Some(MedianInterval {

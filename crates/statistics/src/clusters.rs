@@ -3,8 +3,7 @@
 //! A resampling draws clusters with all their records. If every record is a
 //! separate cluster, it draws records.
 
-use statrs::distribution::{ContinuousCDF as _, StudentsT};
-
+use super::beta::student_quantile;
 use super::sample::mean;
 use rocking::names::{as_text, named};
 
@@ -196,15 +195,8 @@ impl Clusters {
     /// Student's t at a two-sided level, with [`Self::degrees_of_freedom`];
     /// `None` for a single cluster.
     pub fn student(&self, level: f64) -> Option<f64> {
-        student(self.degrees_of_freedom(), level)
+        student_quantile(self.degrees_of_freedom(), level)
     }
-}
-
-/// Student's t at a two-sided level; `None` if the degrees of freedom are not
-/// a number.
-pub(super) fn student(freedom: f64, level: f64) -> Option<f64> {
-    let t = StudentsT::new(0.0, 1.0, freedom).ok()?;
-    Some(t.inverse_cdf(0.5 + 0.5 * level)).filter(|t| t.is_finite())
 }
 
 impl std::fmt::Display for Clusters {

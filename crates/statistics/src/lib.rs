@@ -18,6 +18,7 @@
 #![deny(missing_docs)]
 
 pub mod acceptance;
+mod beta;
 pub mod bootstrap;
 pub mod boxplot;
 pub mod censored;

@@ -6,8 +6,9 @@
 
 mod location;
 
-use statrs::distribution::{Binomial, DiscreteCDF as _};
 use thiserror::Error;
+
+use crate::beta::binomial_cdf;
 
 pub use location::{
     Equivalence, HodgesLehmann, SignEquivalence, equivalence, hodges_lehmann,
@@ -157,11 +158,6 @@ impl SignTest {
         let tail = binomial_cdf(above + below, above.min(below));
         Self { above, below, equal: 0, p_value: (2.0 * tail).min(1.0) }
     }
-}
-
-/// P(B <= k) for B binomial (n, 1/2).
-fn binomial_cdf(n: usize, k: usize) -> f64 {
-    Binomial::new(0.5, n as u64).map_or(1.0, |b| b.cdf(k as u64))
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! A probability from a count, with its exact interval.
 
-use statrs::distribution::{Beta, ContinuousCDF as _};
 use thiserror::Error;
 
-use crate::clusters::{Clusters, student};
+use crate::beta::{quantile, student_quantile};
+use crate::clusters::Clusters;
 use crate::{Interval, Range, normal};
 
 /// Why a count or a level was rejected.
@@ -150,7 +150,7 @@ impl Proportion {
         let mut n = self.trials as f64;
         if let Some(DesignEffect { effect, freedom }) = self.design {
             let z = normal::quantile(0.5 + 0.5 * level);
-            let Some(t) = student(freedom, level) else {
+            let Some(t) = student_quantile(freedom, level) else {
                 return Ok(Range::Share.interval());
             };
             let ratio = z / t;
@@ -158,16 +158,13 @@ impl Proportion {
         }
         let k = self.share() * n;
         let tail = 0.5 * (1.0 - level);
-        let at = |a: f64, b: f64, p: f64| {
-            Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(p))
-        };
         let low = match self.successes {
             0 => 0.0,
-            _ => at(k, n - k + 1.0, tail),
+            _ => quantile(k, n - k + 1.0, tail),
         };
         let high = match self.trials - self.successes {
             0 => 1.0,
-            _ => at(k + 1.0, n - k, 1.0 - tail),
+            _ => quantile(k + 1.0, n - k, 1.0 - tail),
         };
         // Quantiles of the two tails, the lower one of the smaller law.
         Ok(Interval::rising(low, high))

@@ -93,6 +93,9 @@ const METHODS: &[Method] = &[
     ("quantiles", fits::quantiles),
     ("tests-of-normality", fits::tests),
     ("two-samples", fits::two_samples),
+    ("paired-procedures", fits::paired),
+    ("proportions", fits::intervals),
+    ("proportions-of-clusters", fits::of_clusters),
     ("inversion", fits::inversion),
     ("equations-5-to-7", risk::transforms),
     ("annual-frequency", risk::annual_frequency),
@@ -100,11 +103,9 @@ const METHODS: &[Method] = &[
     ("cornell", risk::cornell),
 ];
 
-/// Methods that a page leaves out. Most take longer than about a second in a
-/// browser: trials of many scenes or samples, whole suites, the data set of
-/// the score. Others need quantiles of Student's and the beta distribution
-/// from `statrs`, which uses the logarithm of the platform: their last digits
-/// differ between platforms.
+/// Methods that a page leaves out, because they take longer than about a second
+/// in a browser: trials of many scenes or samples, whole suites, the data set of
+/// the score.
 #[cfg(not(target_family = "wasm"))]
 const LEFT_OUT: &[Method] = &[
     ("many-half-cycles", closed_forms::many),
@@ -132,9 +133,6 @@ const LEFT_OUT: &[Method] = &[
     ("rates-by-earthquake", earthquakes::rates),
     ("coverage-of-fits", earthquakes::coverage_of_fits),
     ("bias", calibration::bias),
-    ("paired-procedures", fits::paired),
-    ("proportions", fits::intervals),
-    ("proportions-of-clusters", fits::of_clusters),
     ("earthquakes-of-other-packages", earthquakes::other_packages),
     ("tests-of-other-packages", shaking::other_packages),
     ("coverage-of-tests", shaking::coverage),

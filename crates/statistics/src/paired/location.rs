@@ -1,9 +1,9 @@
 //! Centre of the ratios, and its equivalence to 1.
 
 use libm::{exp, log, log1p};
-use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
-use super::{PairedError, binomial_cdf};
+use super::PairedError;
+use crate::beta::{binomial_cdf, student_cdf, student_quantile};
 use crate::sample::{mean, sum_of_squares};
 use crate::{Estimate, ExtendedSample, Interval, normal};
 use rocking::stop;
@@ -50,14 +50,14 @@ pub fn equivalence(
     let n = logs.len() as f64;
     let centre = mean(&logs);
     let error = (sum_of_squares(&logs) / (n - 1.0) / n).sqrt();
-    let t = StudentsT::new(0.0, 1.0, n - 1.0)
-        .map_err(|_| PairedError::TooFew(logs.len()))?;
+    let t = student_quantile(n - 1.0, 0.9)
+        .ok_or(PairedError::TooFew(logs.len()))?;
     if error.is_nan() || error <= 0.0 {
         return Err(PairedError::Degenerate);
     }
-    let half = t.inverse_cdf(0.95) * error;
-    let p_lower = t.cdf(-(centre + bound) / error);
-    let p_upper = t.cdf((centre - bound) / error);
+    let half = t * error;
+    let p_lower = student_cdf(-(centre + bound) / error, n - 1.0);
+    let p_upper = student_cdf((centre - bound) / error, n - 1.0);
     let interval = Interval::rising(centre - half, centre + half);
     Ok(Equivalence {
         margin,

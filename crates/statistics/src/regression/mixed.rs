@@ -2,9 +2,9 @@
 
 use libm::{exp, log, log1p};
 use nalgebra::{Matrix2, Vector2};
-use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::{Line, RegressionError, checked};
+use crate::beta::student_cdf;
 use crate::clusters::Clusters;
 use crate::sample::mean;
 use crate::search::golden;
@@ -156,8 +156,10 @@ pub fn mixed(
     let (slope, residual) =
         (found.coefficients[1], found.residual_variance.sqrt());
     let degrees_of_freedom = freedom(&groups, ratio, &unit);
-    let t = StudentsT::new(0.0, 1.0, degrees_of_freedom)
-        .map_err(|_| RegressionError::Constant)?;
+    if !(degrees_of_freedom > 0.0) {
+        return Err(RegressionError::Constant);
+    }
+    let t = (slope / standard_error).abs();
     Ok(Line {
         intercept: centre_y + found.coefficients[0] - slope * centre_x,
         slope,
@@ -165,7 +167,7 @@ pub fn mixed(
         residual_deviation: residual,
         event_deviation: Some(residual * ratio.sqrt()),
         degrees_of_freedom,
-        p_value: 2.0 * t.cdf(-(slope / standard_error).abs()),
+        p_value: 2.0 * student_cdf(-t, degrees_of_freedom),
         n: x.len(),
     })
 }

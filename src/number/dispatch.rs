@@ -30,8 +30,18 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 
-#[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
-use crate::number::lanes::Lanes;
+/// The function that the compiler calls for a fused operation outside a level.
+/// That of MinGW, which would come before Rust's own, rounds twice.
+#[cfg(all(windows, target_arch = "x86_64"))]
+#[unsafe(no_mangle)]
+extern "C" fn fma(a: f64, b: f64, c: f64) -> f64 {
+    if Isa::best() == Isa(IsaLevel::Baseline) {
+        return crate::number::fused::mul_add(a, b, c);
+    }
+    // SAFETY: detection found a level with fused operations.
+    unsafe { avx2::mul_add(a, b, c) }
+}
+
 use crate::number::lanes::Simd;
 
 /// An instruction-set level that this machine was found to have.
@@ -109,9 +119,8 @@ impl Isa {
 
     /// True if lanes are faster than single numbers.
     pub fn is_wide(self) -> bool {
-        // Without fused operations lanes gain nothing.
-        cfg!(not(any(target_arch = "x86_64", target_family = "wasm")))
-            || self.0 != IsaLevel::Baseline
+        // Without registers of their own lanes gain nothing.
+        self.0 != IsaLevel::Baseline
     }
 
     /// Runs `work` on one number at a time with this level's instructions.
@@ -131,9 +140,6 @@ impl Isa {
     #[inline]
     pub fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
-            #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
-            IsaLevel::Baseline => Some(work.run::<Lanes>()),
-            #[cfg(any(target_arch = "x86_64", target_family = "wasm"))]
             IsaLevel::Baseline => None,
             #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of this level exists only if detection found

@@ -1,10 +1,10 @@
-//! The fused multiply-add in plain doubles, for targets whose processor has
-//! none (wasm): the software call of the library takes a fifth longer.
+//! The fused multiply-add in plain doubles, where there is no instruction (wasm)
+//! or the platform's function is wrong (MinGW): `libm` takes a fifth longer.
 //!
 //! Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved
 //! algorithms using rounding to odd" (IEEE Transactions on Computers 57,
 //! 2008, Fig. 5). The proof needs that nothing overflows and that the error of
-//! the product is a double; outside that range the library is called.
+//! the product is a double; outside that range `libm` is called.
 
 /// Largest factor that Dekker's product may split: 2^990.
 const LARGEST_FACTOR: f64 = f64::from_bits((990 + 1023) << 52);
@@ -18,7 +18,7 @@ const LEAST: f64 = f64::from_bits((1023 - 960) << 52);
 ///
 /// It stays a function: inlined at every place, it would make modules large.
 #[inline(never)]
-#[cfg_attr(not(target_family = "wasm"), allow(dead_code))]
+#[cfg_attr(not(any(target_family = "wasm", windows)), allow(dead_code))]
 pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     let product = a * b;
     let factors = a.abs() < LARGEST_FACTOR && b.abs() < LARGEST_FACTOR;
@@ -36,11 +36,11 @@ pub fn mul_add(a: f64, b: f64, c: f64) -> f64 {
     library(a, b, c)
 }
 
-/// The call of the library, out of line.
+/// The call of `libm`, out of line.
 #[cold]
 #[inline(never)]
 fn library(a: f64, b: f64, c: f64) -> f64 {
-    a.mul_add(b, c)
+    libm::fma(a, b, c)
 }
 
 /// The error of a product, by Dekker's halves of the factors.

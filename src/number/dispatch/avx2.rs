@@ -10,6 +10,13 @@ use crate::number::Number;
 use crate::number::dispatch::{Kernel, WithSimd};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
+/// `a * b + c` with one rounding.
+#[cfg(windows)]
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn mul_add(a: f64, b: f64, c: f64) -> f64 {
+    a.mul_add(b, c)
+}
+
 /// Does work on one number at a time.
 #[target_feature(enable = "avx2,fma")]
 pub(super) fn run<W: Kernel>(work: W) -> W::Output {

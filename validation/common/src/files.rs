@@ -220,7 +220,7 @@ impl OutputSink {
                     Err(unfinished) => (unfinished.error, unfinished.file),
                 };
                 if error.kind() != io::ErrorKind::ResourceBusy {
-                    return Err(error);
+                    return Err(beside(part, &target, error));
                 }
                 // The file is mounted by itself.
                 let mut options = File::options();
@@ -232,6 +232,19 @@ impl OutputSink {
             }
         }
     }
+}
+
+/// Keeps a file that cannot replace another, as on Windows if a program has that
+/// one open: under its name and `.new`, which the error names.
+fn beside(part: NamedTempFile, target: &Path, error: io::Error) -> io::Error {
+    let mut place = target.to_owned().into_os_string();
+    place.push(".new");
+    let place = PathBuf::from(place);
+    if place.exists() || system::persist(part, &place).is_err() {
+        return error;
+    }
+    let kept = format!("{error}; the new file is {}", place.display());
+    io::Error::new(error.kind(), kept)
 }
 
 /// Refuses to overwrite an input.
@@ -258,6 +271,7 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
     matches!((id(a), id(b)), (Ok(a), Ok(b)) if a == b)
 }
 
+/// Elsewhere a file is replaced, and its other names keep the old one.
 #[cfg(not(unix))]
 fn is_same_file(_: &Path, _: &Path) -> bool {
     false

@@ -62,14 +62,14 @@ pub fn foreign(folder: &Path) -> Option<String> {
         let entries = fs::read_dir(folder.join(inner));
         let names = entries.into_iter().flatten().flatten();
         let names = names.map(|entry| {
-            Path::new(inner).join(entry.file_name()).display().to_string()
+            format!("{inner}{}", entry.file_name().to_string_lossy())
         });
         names.filter(|name| !name.starts_with('.')).collect::<Vec<_>>()
     };
     let mut all = entries("");
     if folder.join("data").is_dir() {
         all.retain(|name| name != "data");
-        all.extend(entries("data"));
+        all.extend(entries("data/"));
     }
     all.retain(|name| !CASES.contains(&name.as_str()));
     all.sort();

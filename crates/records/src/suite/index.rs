@@ -213,7 +213,8 @@ impl IndexHead {
         Ok(cells)
     }
 
-    /// A row; its column `name` has the file.
+    /// A row; its column `name` has the file. Windows writes `\` between folders,
+    /// and reads `/` as well.
     fn row(
         self: &Rc<Self>,
         line: usize,
@@ -225,7 +226,7 @@ impl IndexHead {
         if file.is_empty() {
             return Err(self.refuse(line, file, "the name of a file"));
         }
-        let (head, file) = (Rc::clone(self), file.to_owned());
+        let (head, file) = (Rc::clone(self), file.replace('\\', "/"));
         Ok(IndexRow { head, line, file, pair, cells })
     }
 

@@ -270,8 +270,8 @@ impl FallbackUse {
 
 /// Name of a folder, or of a zip file without its ending.
 fn container(path: &str) -> &str {
-    let path = path.trim_end_matches('/');
-    let name = path.rsplit('/').next().unwrap_or(path);
+    let path = path.trim_end_matches(['/', '\\']);
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
     name.strip_suffix(".zip").unwrap_or(name)
 }
 

@@ -58,6 +58,22 @@ fn a_row_is_checked_against_its_record() {
     );
 }
 
+/// An index that was made on Windows is read on every system.
+#[test]
+fn folders_in_an_index_end_with_any_slash() {
+    let index = "file,dt_s,units\nnear\\a.csv,0.01,g\n";
+    let unit = Some(AccelerationUnit::Gravity);
+    let read = ReadOptions { unit, ..ReadOptions::default() };
+    let found =
+        Suite::from_index("C:\\x\\i.csv", index.as_bytes(), &read, |file| {
+            assert_eq!(file, "near/a.csv");
+            Ok(MOTION.as_bytes().to_vec())
+        });
+    let survey = found.unwrap();
+    assert_eq!(survey.name, "i");
+    assert_eq!(survey.members[0].file, "near/a.csv");
+}
+
 #[test]
 fn an_index_that_is_none_is_refused() {
     let cases = [
@@ -405,7 +421,7 @@ fn what_is_given_is_for_files_that_state_none() {
         let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
         Survey::of_files("f", &names, &options, bytes, KEEP)
             .and_then(Survey::into_suite)
-            .map_err(|error| error.to_string())
+            .map_err(|error| error.to_string().replace('\\', "/"))
     };
     let si = Some(AccelerationUnit::MetrePerSecondSquared);
     let mixed = suite(&all, Some(0.02), si).unwrap();

@@ -48,7 +48,9 @@ impl Drop for OutputFolder {
             let _ = lock.map(|lock| system::remove_file(&lock));
             return;
         }
-        if let Some((part, _)) = part {
+        if let Some((part, lock)) = part {
+            // Windows removes no folder with an open file.
+            drop(lock);
             // The next run removes what stays.
             let _ = system::remove_dir_all(&part);
         }

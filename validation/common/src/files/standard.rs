@@ -32,7 +32,8 @@ fn is_void(stream: &impl std::os::fd::AsFd) -> bool {
     both && same == Ok(true)
 }
 
-#[cfg(not(unix))]
-fn is_void<T>(_: &T) -> bool {
-    false
+/// Whether a stream is closed.
+#[cfg(windows)]
+fn is_void(stream: &impl std::os::windows::io::AsRawHandle) -> bool {
+    stream.as_raw_handle().is_null()
 }

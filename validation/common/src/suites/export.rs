@@ -107,6 +107,8 @@ pub struct Packing<'a> {
     name: &'a str,
     /// Columns of the index that a record may lack.
     extra: BTreeSet<&'a str>,
+    /// Names in small letters.
+    names: BTreeSet<String>,
     index: Table,
 }
 
@@ -116,13 +118,19 @@ impl<'a> Packing<'a> {
         let extra: BTreeSet<&str> = extra.collect();
         let header: Vec<&str> =
             COLUMNS.into_iter().chain(extra.iter().copied()).collect();
-        Self { name, index: Table::new(&header), extra }
+        Self {
+            name,
+            index: Table::new(&header),
+            extra,
+            names: BTreeSet::new(),
+        }
     }
 
     /// The file of the next record: its path and its text.
     ///
     /// # Errors
-    /// For a record whose name no file can have.
+    /// For a record whose name no file can have, or another file has on a system
+    /// that ignores capitals.
     pub fn add(
         &mut self,
         row: &ExportRow<'_>,
@@ -131,6 +139,13 @@ impl<'a> Packing<'a> {
         if !is_file_name(motion.name()) {
             bail!(
                 "record {:?}: expected a name that a file can have",
+                motion.name()
+            );
+        }
+        if !self.names.insert(motion.name().to_lowercase()) {
+            bail!(
+                "record {:?}: another one has this name but for capitals: \
+                 expected names that differ on any system",
                 motion.name()
             );
         }
@@ -162,10 +177,26 @@ impl<'a> Packing<'a> {
     }
 }
 
-/// Whether the name of a record can name a file.
+/// Whether the name of a record can name a file on this system.
 pub fn is_file_name(name: &str) -> bool {
     let fits = |c: char| !c.is_control() && !"/\\".contains(c);
-    !name.is_empty() && name.chars().all(fits)
+    let fits = !name.is_empty() && name.chars().all(fits);
+    fits && (!cfg!(windows) || is_windows_name(name))
+}
+
+/// Whether Windows keeps a name: a colon would begin a stream of another file,
+/// and `NUL.at2` is a device. No name here ends a file's, so that a dot or a space
+/// at its end is none of the file's.
+fn is_windows_name(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or(name).trim_end();
+    let device = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let is_port = stem.len() == device.len() + 1;
+    !name.contains(['<', '>', ':', '"', '|', '?', '*'])
+        && !match device.to_ascii_uppercase().as_str() {
+            "CON" | "PRN" | "AUX" | "NUL" => stem.len() == device.len(),
+            "COM" | "LPT" => is_port,
+            _ => false,
+        }
 }
 
 /// A record as AT2, five numbers of 25 characters per line: 17 digits, which
@@ -206,6 +237,16 @@ mod tests {
     use rocking_records::{ReadOptions, read};
 
     use super::*;
+
+    #[test]
+    fn windows_keeps_names_that_are_no_devices_or_streams() {
+        for name in ["RSN6_I-ELC180", "CONE", "a.con", "COM", "COM10", "LPT"] {
+            assert!(is_windows_name(name), "{name}");
+        }
+        for name in ["a:b", "nul", "Con.x", "aux .b", "COM1", "lpt9.c", "a?"] {
+            assert!(!is_windows_name(name), "{name}");
+        }
+    }
 
     #[test]
     fn every_double_is_read_back() {

@@ -1,4 +1,5 @@
-//! Little memory, few threads, and a standard output that is closed.
+//! Little memory, few threads, a standard output that is closed, and wrong
+//! functions of the platform.
 
 use std::fs;
 use std::path::Path;
@@ -117,4 +118,76 @@ fn a_result_for_a_closed_standard_output_is_refused() {
     let line = "rocking ida --alpha 0.1 --p 3 --suite suite --out o.csv >&-";
     assert_eq!(shell(&place, line), (0, String::new()));
     assert!(place.join("o.csv").exists());
+}
+
+/// The last digits of the platform's elementary functions differ between
+/// platforms. No result depends on them: if the twelfth digit of each function is
+/// wrong, every byte stays.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_result_depends_on_the_functions_of_the_platform() {
+    let place = prepared("platform");
+    let define = |names: &str, given: &str, passed: &str| -> String {
+        let line = |name| {
+            format!(
+                "double {name}({given}) {{ return {name}l({passed}) * \
+                 (1 + 1e-12); }}\n"
+            )
+        };
+        names.split(' ').map(line).collect()
+    };
+    let wrong = [
+        "#include <math.h>\n".to_owned(),
+        define(
+            "exp exp2 expm1 log log1p log2 log10 sin cos tan asin acos atan \
+             sinh cosh tanh asinh acosh atanh cbrt erf erfc lgamma tgamma",
+            "double x",
+            "x",
+        ),
+        define("hypot atan2", "double x, double y", "x, y"),
+        // Whole powers of ten, of which plotters makes ticks, are exact everywhere.
+        "double pow(double x, double y) { return powl(x, y) * \
+         (1 + 1e-12 * (y != rint(y))); }\n"
+            .to_owned(),
+        define("fma", "double x, double y, double z", "x, y, z"),
+    ];
+    let objects = "id,width_m,height_m\nstele,0.35,1.4\nvase,0.2,0.8\n";
+    let hazard = "pga_g,annual_frequency\n0.05,0.04\n0.5,6e-4\n3,1e-6\n";
+    for (name, text) in [
+        ("wrong.c", &*wrong.concat()),
+        (
+            "ask.c",
+            "double exp(double);\nint main(int n) { return exp(0 * n) == 1; }",
+        ),
+        ("objects.csv", objects),
+        ("hazard.csv", hazard),
+    ] {
+        fs::write(place.join(name), text).unwrap();
+    }
+    let build = "set -e; cc -w -fno-builtin -shared -fPIC -o wrong.so wrong.c -lm; \
+                 cc -w -fno-builtin -o ask ask.c -lm; \
+                 if ./ask; then exit 1; fi; LD_PRELOAD=$PWD/wrong.so ./ask";
+    assert_eq!(shell(&place, build), (0, String::new()));
+    for command in [
+        "respond --alpha 0.1 --p 3 --record suite/r9_1.at2 --im 3 --certify",
+        "ida --alpha 0.1 --p 3 --suite suite --out -",
+        "records suite --intensity",
+        "rank --ida ida.csv --suite suite --at 1 --bootstrap 50",
+        "fragility fit --sample c.txt --shift 1 --bootstrap 50",
+        "lilliefors --sample c.txt --log --replicates 500",
+        "lilliefors --critical-values --n 44 --replicates 500",
+        "stripes --ida ida.csv --levels 1.5,2,3",
+        "assess --suite suite --objects objects.csv --hazard hazard.csv \
+         --bootstrap 50 --out page; cat page/*",
+        "verify --family estimators --json",
+    ] {
+        let program = env!("CARGO_BIN_EXE_rocking");
+        let line = format!(
+            "set -e; all() {{ rm -rf page; rocking {command}; }}; all > right; \
+             rocking() {{ LD_PRELOAD=$PWD/wrong.so '{program}' \"$@\"; }}; \
+             all > wrong; cmp right wrong"
+        );
+        let (status, error) = shell(&place, &line);
+        assert_eq!(status, 0, "{command}: {error}");
+    }
 }

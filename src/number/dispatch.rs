@@ -10,9 +10,12 @@
 //! A further instruction set needs its `Level` here (`available`, `name`,
 //! `run`, `run_wide`), and a file beside `dispatch/avx2.rs` (two registers) or
 //! `avx512.rs` (one) with `Number`, `Simd` and `Mask`.
-#![expect(
-    unsafe_code,
-    reason = "functions and instructions of a level are unsafe to call; detection makes it sound"
+#![cfg_attr(
+    target_arch = "x86_64",
+    expect(
+        unsafe_code,
+        reason = "functions and instructions of a level are unsafe to call; detection makes it sound"
+    )
 )]
 
 /// Instructions of a level.

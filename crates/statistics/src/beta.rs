@@ -8,9 +8,7 @@ use libm::{exp, lgamma, log, log1p};
 
 use crate::normal;
 
-/// Newton's iterations, at most; they converge in ten.
-const ITERATIONS: usize = 200;
-/// Relative steps at which iterations end.
+/// Relative steps at which iterations end, after ten at most as a rule.
 const STEP: f64 = 4.0 * f64::EPSILON;
 
 /// The error of Stirling's formula: ln Gamma(z) = (z - 1/2) ln z - z +
@@ -60,9 +58,6 @@ fn tails(a: f64, b: f64, x: f64, y: f64) -> (f64, f64) {
 /// The probability below x, up to the mean, by the continued fraction of
 /// Didonato and Morris (ACM TOMS 18, 1992, Eq. 9), in Lentz's ratios.
 fn tail(a: f64, b: f64, x: f64, y: f64) -> f64 {
-    if x == 0.0 {
-        return 0.0;
-    }
     let rest = 1.0 + a * y - b * x;
     let mut fraction = a * rest / (a + 1.0);
     let (mut above, mut below) = (fraction, 0.0);
@@ -90,18 +85,17 @@ pub(crate) fn quantile(a: f64, b: f64, p: f64) -> f64 {
         return f64::NAN;
     }
     let (mut low, mut high, mut x) = (0.0, 1.0, a / (a + b));
-    for _ in 0..ITERATIONS {
+    for _ in 0..200 {
         let (below, above) = tails(a, b, x, 1.0 - x);
         let excess = if p < 0.5 { below - p } else { 1.0 - p - above };
         *(if excess > 0.0 { &mut high } else { &mut low }) = x;
         let density = powers(a, b, x, 1.0 - x) / (x * (1.0 - x));
-        let mut next = x - excess / density;
-        if !(next > low && next < high) {
-            next = 0.5 * (low + high);
+        let before = x;
+        x -= excess / density;
+        if !(x > low && x < high) {
+            x = 0.5 * (low + high);
         }
-        let step = next - x;
-        x = next;
-        if !(step.abs() > STEP * x) {
+        if !((x - before).abs() > STEP * x) {
             break;
         }
     }
@@ -112,15 +106,9 @@ pub(crate) fn quantile(a: f64, b: f64, p: f64) -> f64 {
 /// if t grows by a small share of itself.
 fn student_outside(t: f64, freedom: f64) -> (f64, f64) {
     // Infinitely many, of the normal distribution, differ by 1e-9.
-    let freedom = freedom.min(1e9);
-    let (a, b) = (0.5 * freedom, 0.5);
-    // Not squared: t may be large.
-    let (x, y) = match t * t / freedom {
-        ratio if ratio < 1.0 => (1.0 / (1.0 + ratio), ratio / (1.0 + ratio)),
-        ratio => {
-            (1.0 / ratio / (1.0 + 1.0 / ratio), 1.0 / (1.0 + 1.0 / ratio))
-        }
-    };
+    let freedom = if freedom > 1e9 { 1e9 } else { freedom };
+    let (a, b, sum) = (0.5 * freedom, 0.5, freedom + t * t);
+    let (x, y) = (freedom / sum, t * t / sum);
     (tails(a, b, x, y).0, 2.0 * powers(a, b, x, y))
 }
 
@@ -136,11 +124,8 @@ pub(crate) fn student_cdf(t: f64, freedom: f64) -> f64 {
 /// Newton's iteration from the normal quantile below it: P(|T| > t) is convex,
 /// so that the iteration rises to the root.
 pub(crate) fn student_quantile(freedom: f64, level: f64) -> Option<f64> {
-    if !(freedom > 0.0) {
-        return None;
-    }
     let mut t = normal::quantile(0.5 + 0.5 * level);
-    for _ in 0..ITERATIONS {
+    for _ in 0..200 {
         let (outside, fall) = student_outside(t, freedom);
         let share = (outside - (1.0 - level)) / fall;
         t += t * share;
@@ -148,7 +133,7 @@ pub(crate) fn student_quantile(freedom: f64, level: f64) -> Option<f64> {
             break;
         }
     }
-    Some(t).filter(|t| t.is_finite())
+    Some(t).filter(|t| t.is_finite() && freedom > 0.0)
 }
 
 /// P(B <= k) for B binomial (n, 1/2), k below n.

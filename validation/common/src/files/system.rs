@@ -128,17 +128,10 @@ pub(super) fn tried(path: &Path) -> io::Result<Lock> {
     })
 }
 
-/// Errors of a lock on a file system without locks: Lustre without `flock`, NFS
-/// without its daemon, some in user space.
+/// Further errors of a lock on a file system without locks: Lustre without
+/// `flock`, NFS without its daemon, some in user space.
 #[cfg(unix)]
-const NO_LOCKS: &[i32] = {
-    use rustix::io::Errno;
-    &[
-        Errno::NOSYS.raw_os_error(),
-        Errno::OPNOTSUPP.raw_os_error(),
-        Errno::NOLCK.raw_os_error(),
-    ]
-};
+const NO_LOCKS: &[i32] = &[rustix::io::Errno::NOLCK.raw_os_error()];
 /// The same on Windows: ERROR_INVALID_FUNCTION and ERROR_NOT_SUPPORTED.
 #[cfg(not(unix))]
 const NO_LOCKS: &[i32] = &[1, 50];

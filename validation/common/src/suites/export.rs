@@ -188,15 +188,15 @@ pub fn is_file_name(name: &str) -> bool {
 /// and `NUL.at2` is a device. No name here ends a file's, so that a dot or a space
 /// at its end is none of the file's.
 fn is_windows_name(name: &str) -> bool {
-    let stem = name.split('.').next().unwrap_or(name).trim_end();
-    let device = stem.trim_end_matches(|c: char| c.is_ascii_digit());
-    let is_port = stem.len() == device.len() + 1;
-    !name.contains(['<', '>', ':', '"', '|', '?', '*'])
-        && !match device.to_ascii_uppercase().as_str() {
-            "CON" | "PRN" | "AUX" | "NUL" => stem.len() == device.len(),
-            "COM" | "LPT" => is_port,
-            _ => false,
+    let stem = name.split('.').next().unwrap_or(name);
+    let device = match stem.trim_end().to_ascii_uppercase().as_bytes() {
+        b"CON" | b"PRN" | b"AUX" | b"NUL" => true,
+        [b'C', b'O', b'M', port] | [b'L', b'P', b'T', port] => {
+            port.is_ascii_digit()
         }
+        _ => false,
+    };
+    !(device || name.contains(['<', '>', ':', '"', '|', '?', '*']))
 }
 
 /// A record as AT2, five numbers of 25 characters per line: 17 digits, which

@@ -237,13 +237,13 @@ impl OutputSink {
 /// Keeps a file that cannot replace another, as on Windows if a program has that
 /// one open: under its name and `.new`, which the error names.
 fn beside(part: NamedTempFile, target: &Path, error: io::Error) -> io::Error {
-    let mut place = target.to_owned().into_os_string();
-    place.push(".new");
-    let place = PathBuf::from(place);
+    let mut name = target.file_name().unwrap_or_default().to_owned();
+    name.push(".new");
+    let place = target.with_file_name(&name);
     if place.exists() || system::persist(part, &place).is_err() {
         return error;
     }
-    let kept = format!("{error}; the new file is {}", place.display());
+    let kept = format!("{error}; beside it is the new {}", name.display());
     io::Error::new(error.kind(), kept)
 }
 

@@ -277,14 +277,25 @@ mod tests {
 
     #[test]
     fn names_that_no_file_has_are_refused() {
-        let motion = Accelerogram::try_new("a/b", 0.1, vec![0.0; 2]).unwrap();
-        let row = ExportRow {
-            motion: &motion,
-            pair: None,
-            study_component: true,
-            attributes: Vec::new(),
-        };
-        let error = files("x", &[row]).unwrap_err();
-        assert!(error.to_string().starts_with("record \"a/b\": "));
+        let motions = ["a/b", "Ab", "aB"].map(|name| {
+            Accelerogram::try_new(name, 0.1, vec![0.0; 2]).unwrap()
+        });
+        fn rows(motions: &[Accelerogram]) -> Vec<ExportRow<'_>> {
+            let row = |motion| ExportRow {
+                motion,
+                pair: None,
+                study_component: true,
+                attributes: Vec::new(),
+            };
+            motions.iter().map(row).collect()
+        }
+        for (motions, refusal) in [
+            (&motions[..1], "record \"a/b\": "),
+            (&motions[1..], "record \"aB\": "),
+        ] {
+            let error = files("x", &rows(motions)).unwrap_err();
+            assert!(error.to_string().starts_with(refusal), "{error}");
+        }
+        assert!(files("x", &rows(&motions[2..])).is_ok());
     }
 }

@@ -145,7 +145,7 @@ impl<'a> Packing<'a> {
         if !self.names.insert(motion.name().to_lowercase()) {
             bail!(
                 "record {:?}: another one has this name but for capitals: \
-                 expected names that differ on any system",
+                 expected names that differ on every system",
                 motion.name()
             );
         }
@@ -184,9 +184,8 @@ pub fn is_file_name(name: &str) -> bool {
     fits && (!cfg!(windows) || is_windows_name(name))
 }
 
-/// Whether Windows keeps a name: a colon would begin a stream of another file,
-/// and `NUL.at2` is a device. No name here ends a file's, so that a dot or a space
-/// at its end is none of the file's.
+/// Whether Windows takes a name, to which an ending is added: after a colon it
+/// would be a stream of another file, and `NUL.at2` is a device.
 fn is_windows_name(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or(name);
     let device = match stem.trim_end().to_ascii_uppercase().as_bytes() {

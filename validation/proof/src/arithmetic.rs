@@ -140,7 +140,7 @@ impl Number for Single {
     }
 
     fn mul_add(self, b: Self, c: Self) -> Self {
-        Self(self.0.mul_add(b.0, c.0))
+        Self(libm::fmaf(self.0, b.0, c.0))
     }
 
     functions!(sqrt f32::sqrt, abs f32::abs);

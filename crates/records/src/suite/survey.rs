@@ -1,7 +1,7 @@
 //! Reading every record that a folder or an index lists.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::index::{self, Index};
 use super::pairing;
@@ -142,6 +142,7 @@ impl<K> Survey<K> {
             let mut given = FallbackUse::default();
             for name in names {
                 let shown = Path::new(path).join(name).display().to_string();
+                let shown = shown.replace(MAIN_SEPARATOR, "/");
                 let records = file_bytes(name)
                     .and_then(|bytes| settle(&shown, &bytes, options, None));
                 let found = records.unwrap_or_else(|error| {

@@ -421,7 +421,7 @@ fn what_is_given_is_for_files_that_state_none() {
         let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
         Survey::of_files("f", &names, &options, bytes, KEEP)
             .and_then(Survey::into_suite)
-            .map_err(|error| error.to_string().replace('\\', "/"))
+            .map_err(|error| error.to_string())
     };
     let si = Some(AccelerationUnit::MetrePerSecondSquared);
     let mixed = suite(&all, Some(0.02), si).unwrap();

@@ -141,6 +141,7 @@ impl Isa {
     /// Runs `work` on lanes with this level's instructions; `None` if lanes
     /// are [not faster](Self::is_wide).
     #[inline]
+    #[cfg_attr(not(target_arch = "x86_64"), expect(unused_variables))]
     pub fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
             IsaLevel::Baseline => None,

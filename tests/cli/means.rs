@@ -145,7 +145,7 @@ fn no_result_depends_on_the_functions_of_the_platform() {
             "x",
         ),
         define("hypot atan2", "double x, double y", "x, y"),
-        // Whole powers of ten, of which plotters makes ticks, are exact everywhere.
+        // Whole powers of ten, from which plotters makes ticks, are exact.
         "double pow(double x, double y) { return powl(x, y) * \
          (1 + 1e-12 * (y != rint(y))); }\n"
             .to_owned(),

@@ -337,7 +337,7 @@ pub(super) fn not_run(basis: &FindingSets<'_>) -> String {
         (true, false) => "recorded motions, ",
         (false, _) => "",
     };
-    format!("Not run here: {records}machines other than x86-64 Linux")
+    format!("Not run here: {records}any other machine")
 }
 
 fn exact(timings: &Timings, proof: Option<&Proof>, lead: &Findings) -> String {

@@ -70,6 +70,29 @@ pub trait Number:
         self * b + c
     }
 
+    /// Whether a rough product has fewer digits than another.
+    const IS_GRADED: bool = false;
+
+    /// `self * b + sum`, as [`Self::mul_add`]. Wider arithmetic may leave the
+    /// digits of the sum unordered; [`Self::ordered`] orders them.
+    #[inline(always)]
+    fn add_product(self, b: Self, sum: Self) -> Self {
+        self.mul_add(b, sum)
+    }
+
+    /// `self * b + sum`, as [`Self::mul_add`]; in double-double arithmetic to
+    /// the digits of a double, for small terms of a sum.
+    #[inline(always)]
+    fn rough_product(self, b: Self, sum: Self) -> Self {
+        self.mul_add(b, sum)
+    }
+
+    /// The number itself, its digits in order after [`Self::add_product`].
+    #[inline(always)]
+    fn ordered(self) -> Self {
+        self
+    }
+
     /// Square root.
     fn sqrt(self) -> Self;
 
@@ -142,7 +165,7 @@ pub trait Real: Number + PartialOrd + Default + std::fmt::Debug {
     /// coefficient of the longer series is below the roundoff at steps of a
     /// tenth of 1/p.
     fn with_lengths<W: SeriesWork>(work: W) -> W::Output {
-        work.run::<20, 28>()
+        work.run::<16, 28>()
     }
 }
 

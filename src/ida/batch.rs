@@ -300,6 +300,18 @@ impl<'a> Book<'a> {
         order.into_iter().find_map(|(_, index)| self.next(index, true))
     }
 
+    fn is_due(&self, Task { index, aim, .. }: &Task<'_>) -> bool {
+        let active = self.climbs.get(index);
+        active.is_some_and(|active| active.climb.is_due(*aim))
+    }
+
+    fn postpone(&mut self, Task { index, aim, .. }: &Task<'_>) {
+        if let Some(active) = self.climbs.get_mut(index) {
+            active.out -= 1;
+            active.climb.postpone(*aim);
+        }
+    }
+
     fn settle(
         &mut self,
         Task { index, aim, .. }: &Task<'_>,
@@ -354,6 +366,13 @@ impl<'a> pool::SceneSource<'a> for Desk<'_, 'a> {
     fn settle(&mut self, task: Task<'a>, response: Option<&Response>) {
         self.last = Some(task.index);
         let point = match response {
+            Some(response) if task.level.is_clear(response) => {
+                task.level.point(response)
+            }
+            // Most levels ahead of the curve are never part of it.
+            Some(_) if !self.with_book(|book| book.is_due(&task)) => {
+                return self.with_book(|book| book.postpone(&task));
+            }
             Some(response) => task.level.point(response),
             // A run alone says when it passes its limit.
             None => task.level.run(Isa::best()),

@@ -38,11 +38,13 @@ pub(super) struct Climb<'a> {
 
 enum ClimbStage {
     /// Levels below `given` are handed out and levels below `due` are settled;
-    /// points in `early` wait for lower levels.
+    /// points in `early` wait for lower levels, and levels without a point run
+    /// once more when they are due; `again` if that level is `due`.
     Rising {
         given: u64,
         due: u64,
-        early: BTreeMap<u64, IdaPoint>,
+        early: BTreeMap<u64, Option<IdaPoint>>,
+        again: bool,
     },
     /// The bracket; `asked` while its middle is being run.
     Bisecting {
@@ -71,7 +73,12 @@ impl<'a> Climb<'a> {
         let early = BTreeMap::new();
         let mut climb = Self {
             levels,
-            stage: ClimbStage::Rising { given: first, due: first, early },
+            stage: ClimbStage::Rising {
+                given: first,
+                due: first,
+                early,
+                again: false,
+            },
             onset,
             points: Vec::new(),
             overturning: None,
@@ -95,8 +102,8 @@ impl<'a> Climb<'a> {
     ) -> Result<Option<(Aim, ImLevel<'a>)>, IdaError> {
         let highest = self.levels.analysis.highest_im;
         match &mut self.stage {
-            ClimbStage::Rising { given, due, .. } => {
-                let level = *given;
+            ClimbStage::Rising { given, due, again, .. } => {
+                let level = if *again { *due } else { *given };
                 let sure = level == *due;
                 if !(sure || ahead) || self.levels.im(level) > highest {
                     return Ok(None);
@@ -107,7 +114,8 @@ impl<'a> Climb<'a> {
                     // Perhaps it is never reached.
                     Err(_) => return Ok(None),
                 };
-                *given += 1;
+                *given = (*given).max(level + 1);
+                *again = false;
                 Ok(Some((Aim::Rising(level), found)))
             }
             ClimbStage::Bisecting { low, high, asked } => {
@@ -142,11 +150,33 @@ impl<'a> Climb<'a> {
         }
     }
 
+    /// True if the level of an analysis is the lowest that is not settled, or
+    /// one that is surely part of the curve.
+    pub fn is_due(&self, aim: Aim) -> bool {
+        match (&self.stage, aim) {
+            (ClimbStage::Rising { due, .. }, Aim::Rising(level)) => {
+                level == *due
+            }
+            (_, Aim::Rising(_)) => false,
+            (_, Aim::Middle | Aim::Above(_)) => true,
+        }
+    }
+
+    /// Runs a level that is not due once more when it is.
+    pub fn postpone(&mut self, aim: Aim) {
+        if let ClimbStage::Rising { early, .. } = &mut self.stage
+            && let Aim::Rising(level) = aim
+        {
+            early.insert(level, None);
+            self.rise();
+        }
+    }
+
     /// Takes a point.
     pub fn accept(&mut self, aim: Aim, point: IdaPoint) {
         match (&mut self.stage, aim) {
             (ClimbStage::Rising { early, .. }, Aim::Rising(level)) => {
-                early.insert(level, point);
+                early.insert(level, Some(point));
                 self.rise();
             }
             (ClimbStage::Bisecting { low, high, asked }, Aim::Middle) => {
@@ -172,10 +202,15 @@ impl<'a> Climb<'a> {
 
     /// Takes the levels that are due, up to the first overturning.
     fn rise(&mut self) {
-        let ClimbStage::Rising { due, early, .. } = &mut self.stage else {
+        let ClimbStage::Rising { due, early, again, .. } = &mut self.stage
+        else {
             return;
         };
         while let Some(point) = early.remove(due) {
+            let Some(point) = point else {
+                *again = true;
+                return;
+            };
             *due += 1;
             let below = self.points.last().map_or(1.0, |point| point.im);
             self.points.push(point);

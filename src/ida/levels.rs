@@ -174,17 +174,23 @@ impl ImLevel<'_> {
         }
     }
 
+    /// True if the curve takes the response as it is.
+    pub fn is_clear(&self, response: &Response) -> bool {
+        !self.is_certified() || is_below(response, WORTH_ASSESSING)
+    }
+
+    fn is_certified(&self) -> bool {
+        self.of.analysis.certify && self.of.analysis.order.is_none()
+    }
+
     /// The point of the level, from its response.
     pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
-        let Analysis { certify, order, work_limit, .. } = *self.of.analysis;
-        let certify = certify && order.is_none();
-        let most = if certify { WORTH_ASSESSING } else { DOUBTFUL };
-        // NaN is doubtful.
-        let clear = response.doubt.is_some_and(|doubt| doubt < most);
-        let (outcome, fate_margin, resolution) = if clear || !certify {
-            let resolution = Resolution::roughly(clear);
+        let (outcome, fate_margin, resolution) = if self.is_clear(response) {
+            let is_resolved = is_below(response, DOUBTFUL);
+            let resolution = Resolution::roughly(is_resolved);
             (response.outcome, response.fate_margin, resolution)
         } else {
+            let work_limit = self.of.analysis.work_limit;
             let ask = Certify { work_limit, ..Certify::default() };
             let fate = integrator::certify(&self.scene, &ask);
             let fate = fate.map_err(|error| self.refused(error))?;
@@ -205,6 +211,11 @@ impl ImLevel<'_> {
             resolution,
         })
     }
+}
+
+/// True if the rough estimate of a run is below a limit. NaN is not.
+fn is_below(response: &Response, limit: f64) -> bool {
+    response.doubt.is_some_and(|doubt| doubt < limit)
 }
 
 /// Number of steps in 1, if it is a whole number.

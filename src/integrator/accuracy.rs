@@ -19,6 +19,10 @@
 //! saltation matrix of an impact at constant eta. `Once` lists the inputs and
 //! constants whose rounding error is made once and acts in every step.
 
+mod hops;
+
+pub(crate) use hops::{HopStep, NearBase, SmallHops};
+
 use crate::integrator::certificate::{
     CLEARANCE, Certificate, Decision, LARGEST_ERROR,
 };
@@ -83,6 +87,8 @@ pub(crate) struct Accuracy {
     /// The present impacts surely end in a rest, so nothing until then has a
     /// consequence.
     pub resting: bool,
+    /// The present hops, if their order is unknown.
+    pub hops: Option<SmallHops>,
     /// Outcome and peak are final; later decisions are ignored.
     pub settled: bool,
 }
@@ -103,8 +109,10 @@ pub(crate) struct Leg {
     pub left: f64,
     /// Uplift threshold over gravity.
     pub threshold: f64,
-    /// Ground acceleration over gravity, on the side of the rotation.
+    /// Ground acceleration over gravity, on the side of the rotation, and its
+    /// rate.
     pub f: f64,
+    pub rate: f64,
     /// Change of `f` if the time within the excitation changes by its span.
     pub shift: f64,
     /// Angular velocity and acceleration.
@@ -124,9 +132,9 @@ impl Accuracy {
         Self { unit: f64::EPSILON, of_inputs, alpha, ..Self::default() }
     }
 
-    /// Restarts at rest.
+    /// Restarts at rest, or after small hops.
     pub fn start(&mut self) {
-        (self.uu, self.uw, self.ww) = (0.0, 0.0, 0.0);
+        self.start_covariance();
         self.once = [[0.0; 2]; ONCES];
         self.initial = [[1.0, 0.0], [0.0, 1.0]];
         self.resting = false;
@@ -208,6 +216,10 @@ impl Accuracy {
 
     /// Bound on the error of a quantity with these derivatives by u and w.
     pub fn bound(&self, [a, b]: [f64; 2]) -> f64 {
+        if let Some(hops) = &self.hops {
+            let [u, w] = hops.errors();
+            return (a * u).abs() + (b * w).abs();
+        }
         let variance =
             a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
         let mut once = 0.0;
@@ -246,7 +258,9 @@ impl Accuracy {
         error: f64,
         time_s: f64,
     ) {
-        if !self.settled && !self.resting {
+        let hops = self.hops.is_some()
+            && matches!(decision, Decision::Contact | Decision::Rest);
+        if !self.settled && !self.resting && !hops {
             let ratio = ratio(margin, error);
             self.certificate.note(decision, ratio, time_s);
         }
@@ -293,7 +307,9 @@ impl Accuracy {
     /// Notes the least relative distance of the ground acceleration from the
     /// uplift threshold while the block rested.
     pub fn at_rest(&mut self, distance: f64, time_s: f64) {
-        self.resting = false;
+        if std::mem::take(&mut self.resting) {
+            self.hops = None;
+        }
         let error = AT_REST * self.unit;
         self.decide(Decision::Uplift, distance, error, time_s);
     }

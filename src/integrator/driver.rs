@@ -41,7 +41,7 @@ use crate::number::dispatch::Isa;
 
 /// Truncation error allowed in a step, in units of roundoff times
 /// (|w| + alpha h): as large as the rounding error of the step.
-const TRUNCATION_SHARE: f64 = 0.5;
+pub(crate) const TRUNCATION_SHARE: f64 = 0.5;
 
 /// Truncation error allowed in a step, as a share of the velocity.
 pub(crate) fn tolerance<N: Real>() -> f64 {
@@ -173,7 +173,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let matters = self.dynamics.overturning == Overturning::Alpha;
         self.barrier = matters.then(Barrier::none);
         self.ends_early = matters;
-        self.screen = Some(Screen::at_rest());
+        let is_screened = N::ROUNDOFF >= f64::ROUNDOFF;
+        self.screen = is_screened.then(Screen::at_rest);
         self
     }
 

@@ -2,14 +2,19 @@
 
 use std::marker::PhantomData;
 
-use crate::integrator::driver::{Driver, Step};
+use crate::excitation::Excitation;
+use crate::integrator::driver::{Driver, TRUNCATION_SHARE};
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::Shaking;
+use crate::integrator::forcing::{Forcing, RecordForcing, Shaking};
 use crate::integrator::roots::MOST;
 use crate::integrator::run::index_of;
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
 use crate::number::dispatch::Isa;
 use crate::number::{Real, SeriesWork};
+
+/// Truncation error in a step, as a share of the velocity, that suffices for
+/// outcome and peak.
+const ENOUGH: f64 = 1e-27;
 
 /// Integrates a scene in the arithmetic of `N`, by series as long as that
 /// needs: [`DoubleDouble`](crate::number::double::DoubleDouble), about 30
@@ -98,36 +103,59 @@ impl<N: Real> SeriesWork for PreciseRun<'_, N> {
 
     fn run<const SHORT: usize, const LONG: usize>(self) -> Self::Output {
         const { assert!(SHORT <= LONG && LONG <= MOST) };
-        let Self { scene, observe, peak_only, progress, .. } = self;
-        let Scene { block, restitution, model, overturning, .. } = *scene;
-        let dynamics = Dynamics::new(&block, restitution, model, overturning);
-        let (index, isa) = (index_of(scene), Isa::best());
-        let ground = Shaking::of(scene, index.as_deref(), isa);
-        let short = match &ground {
-            Shaking::Record(record) => is_short::<N>(record.step(), SHORT),
-            Shaking::Pulse(_) | Shaking::Silence(_) => false,
+        let Excitation::Record(record) = self.scene.excitation else {
+            let ground = Shaking::of(self.scene, Isa::best());
+            return self.under::<_, LONG, LONG, LONG>(ground, N::ROUNDOFF);
         };
-        let mut driver =
-            Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa);
-        if peak_only {
-            driver = driver.for_peak();
-        }
-        let see = |driver: &Driver<N, _, LONG, LONG>, step: &Step<N>| {
-            progress(driver.time_s(step.place).to_f64());
-        };
-        if short {
-            driver.run::<SHORT>(scene, observe, see)
+        let index = index_of(&record);
+        let p = self.scene.block.frequency_rad_s();
+        let ground = RecordForcing::new(record, &index, p);
+        let enough = if self.peak_only { ENOUGH } else { 0.0 };
+        let share = enough.max(N::ROUNDOFF);
+        if is_short(ground.step(), SHORT, share) {
+            self.under::<_, 2, SHORT, LONG>(ground, share)
         } else {
-            driver.run::<LONG>(scene, observe, see)
+            self.under::<_, 2, LONG, LONG>(ground, share)
         }
     }
 }
 
-/// True if the truncation error of a series of `length` coefficients is at
-/// most the roundoff over a step (in 1/p), for a motion whose coefficients do
-/// not grow.
-fn is_short<N: Real>(step: f64, length: usize) -> bool {
-    libm::log(step) * (length as f64) < libm::log(N::ROUNDOFF)
+impl<N: Real> PreciseRun<'_, N> {
+    /// The run by series of `LEN` coefficients, or of `LONG` ones if the
+    /// truncation error of a step is above half of `share` of the velocity.
+    fn under<
+        G: Forcing<N, F>,
+        const F: usize,
+        const LEN: usize,
+        const LONG: usize,
+    >(
+        self,
+        ground: G,
+        share: f64,
+    ) -> Result<Response<N>, SceneError> {
+        let Self { scene, observe, peak_only, progress, .. } = self;
+        let Scene { block, restitution, model, overturning, .. } = *scene;
+        let dynamics = Dynamics::new(&block, restitution, model, overturning);
+        let mut driver =
+            Driver::<N, G, F, LONG>::new(dynamics, ground, Isa::best())
+                .within(TRUNCATION_SHARE * share);
+        if peak_only {
+            driver = driver.for_peak();
+        }
+        driver.run::<LEN>(scene, observe, |driver, step| {
+            progress(driver.time_s(step.place).to_f64());
+        })
+    }
+}
+
+/// True if the last of `length` coefficients is surely at most `share` of the
+/// first over a step (in 1/p). Strong forcing makes later coefficients larger
+/// than those of free motion, by less than this factor.
+fn is_short(step: f64, length: usize, share: f64) -> bool {
+    const FORCED: f64 = 30.0;
+    let last = (length - 1) as f64;
+    let size = last * libm::log(step) - libm::lgamma(last + 1.0);
+    size < libm::log(share / FORCED)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::excitation::{Excitation, RecordIndex};
+use crate::excitation::{Excitation, RecordIndex, ScaledRecord};
 use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::{Again, Driver, tolerance};
 use crate::integrator::dynamics::Dynamics;
@@ -16,24 +16,19 @@ pub(super) fn run(
     solver: Solver,
     again: Again,
 ) -> Result<Response, SceneError> {
-    let index = index_of(scene);
-    let index = index.as_deref();
-    solver.isa.run(RunKernel { scene, observe, index, solver, again })
+    solver.isa.run(RunKernel { scene, observe, solver, again })
 }
 
-/// Index of the record of a scene, if there is one: that of the record, or a
-/// new one if it has none.
-pub(super) fn index_of<'a>(scene: &Scene<'a>) -> Option<Cow<'a, RecordIndex>> {
-    let Excitation::Record(record) = scene.excitation else { return None };
+/// Index of a record: its own, or a new one if it has none.
+pub(super) fn index_of<'a>(record: &ScaledRecord<'a>) -> Cow<'a, RecordIndex> {
     let new = || Cow::Owned(RecordIndex::new(record.samples()));
-    Some(record.index().map_or_else(new, Cow::Borrowed))
+    record.index().map_or_else(new, Cow::Borrowed)
 }
 
 /// One run, compiled for each instruction-set level.
 struct RunKernel<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
-    index: Option<&'a RecordIndex>,
     solver: Solver,
     again: Again,
 }
@@ -43,14 +38,13 @@ impl Kernel for RunKernel<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let (Excitation::Record(record), Some(index)) =
-            (self.scene.excitation, self.index)
-        else {
-            let ground = Shaking::of(self.scene, None, self.solver.isa);
+        let Excitation::Record(record) = self.scene.excitation else {
+            let ground = Shaking::of(self.scene, self.solver.isa);
             return self.at::<_, LONGEST, LONGEST>(tolerance::<f64>(), ground);
         };
+        let index = index_of(&record);
         let p = self.scene.block.frequency_rad_s();
-        let forcing = RecordForcing::new(record, index, p);
+        let forcing = RecordForcing::new(record, &index, p);
         let order = self.solver.order;
         let class = Class::of(self.scene.model, forcing.step(), order);
         let share = class.tolerance();

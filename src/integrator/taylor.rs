@@ -22,6 +22,49 @@ macro_rules! written_out {
     };
 }
 
+/// Factor on a sum of positive terms in double precision that makes it a bound.
+const CLOSE: f64 = 1.0 + 1e-12;
+
+/// Number of the coefficients, of `length` of them, that need all digits if
+/// the next coefficient after them is below the roundoff: the others are so
+/// small that half of the digits suffice. It matters in graded arithmetic.
+#[inline(always)]
+pub(crate) const fn fine(length: usize) -> usize {
+    let less = length.saturating_sub(6);
+    if less > 3 { less } else { 3 }
+}
+
+/// Arithmetic of coefficient `order` of `length`: with all digits, or graded.
+#[derive(Clone, Copy)]
+struct Grade {
+    is_fine: bool,
+}
+
+impl Grade {
+    #[inline(always)]
+    fn of<N: Number>(order: usize, length: usize) -> Self {
+        Self { is_fine: !N::IS_GRADED || order < fine(length) }
+    }
+
+    /// Adds a product to a sum of products.
+    #[inline(always)]
+    fn add<N: Number>(self, a: N, b: N, sum: N) -> N {
+        match self.is_fine {
+            true => a.add_product(b, sum),
+            false => a.rough_product(b, sum),
+        }
+    }
+
+    /// The product of a sum of products and a number.
+    #[inline(always)]
+    fn times<N: Number>(self, sum: N, b: N) -> N {
+        match self.is_fine {
+            true => sum.ordered() * b,
+            false => sum.rough_product(b, N::zero()),
+        }
+    }
+}
+
 /// Polynomials of a step in units of its length h: u(x h) and u'(x h) for x
 /// in [0, 1], `LEN` coefficients of each (order `LEN - 1` in both).
 ///
@@ -120,6 +163,7 @@ impl<N: Number, const F: usize> Force<N, F> {
         // In every sum the terms that are known last come last: the sums
         // wait for nothing else.
         let Self { even, odd } = self;
+        let grade = Grade::of::<N>(k + 1, LEN);
         let Turn { sine, fall } = turn;
         let (mut sum, known) = if k < F {
             (even[k], k)
@@ -127,15 +171,15 @@ impl<N: Number, const F: usize> Force<N, F> {
             let last = F - 1;
             let mut sum = odd[last] * sine[k - last];
             if k > F {
-                sum = (-even[last]).mul_add(fall[k - last], sum);
+                sum = grade.add(-even[last], fall[k - last], sum);
             }
             (sum, last)
         };
         for j in (0..known).rev() {
             if k - j > 1 {
-                sum = (-even[j]).mul_add(fall[k - j], sum);
+                sum = grade.add(-even[j], fall[k - j], sum);
             }
-            sum = odd[j].mul_add(sine[k - j], sum);
+            sum = grade.add(odd[j], sine[k - j], sum);
         }
         sum
     }
@@ -153,20 +197,24 @@ impl<N: Number, const LEN: usize> Turn<N, LEN> {
     fn extend(&mut self, n: usize, series: &TaylorSeries<N, LEN>, h: N) {
         let Self { sine, fall } = self;
         let v = &series.v;
-        let step = h * N::ratio(1, n as i32);
+        let grade = Grade::of::<N>(n, LEN);
+        let step = grade.times(h, N::ratio(1, n as i32));
         sine[n] = series.c[n];
         if n > 2 {
             let mut sum = v[n - 3] * fall[2];
             for j in 3..n {
-                sum = v[n - 1 - j].mul_add(fall[j], sum);
+                sum = grade.add(v[n - 1 - j], fall[j], sum);
             }
-            sine[n] = (-sum).mul_add(step, sine[n]);
+            sine[n] = match grade.is_fine {
+                true => (-sum.ordered()).mul_add(step, sine[n]),
+                false => (-sum).rough_product(step, sine[n]),
+            };
         }
         let mut sum = v[n - 2] * sine[1];
         for j in 2..n {
-            sum = v[n - 1 - j].mul_add(sine[j], sum);
+            sum = grade.add(v[n - 1 - j], sine[j], sum);
         }
-        fall[n] = sum * step;
+        fall[n] = grade.times(sum, step);
     }
 }
 
@@ -184,9 +232,10 @@ impl<N: Number, const LEN: usize> TaylorSeries<N, LEN> {
     /// `k`.
     #[inline(always)]
     fn extend(&mut self, k: usize, force: N, h: N) {
-        let step = h * N::ratio(1, k as i32 + 1);
-        self.v[k + 1] = force * step;
-        self.c[k + 1] = self.v[k] * step;
+        let grade = Grade::of::<N>(k + 1, LEN);
+        let step = grade.times(h, N::ratio(1, k as i32 + 1));
+        self.v[k + 1] = grade.times(force, step);
+        self.c[k + 1] = grade.times(self.v[k], step);
     }
 
     /// The first coefficients of the series.
@@ -207,6 +256,17 @@ impl<N: Number, const LEN: usize> TaylorSeries<N, LEN> {
 /// for the two that are seldom known last.
 #[inline(always)]
 pub(crate) fn total<N: Number, const LEN: usize>(c: &[N; LEN]) -> N {
+    if N::IS_GRADED {
+        let one = N::one();
+        let (mut rough, mut sum) = (N::zero(), N::zero());
+        for x in c[fine(LEN)..].iter().rev() {
+            rough = one.rough_product(*x, rough);
+        }
+        for x in c[2..fine(LEN)].iter().rev() {
+            sum = one.add_product(*x, sum);
+        }
+        return c[0] + (c[1] + one.add_product(rough, sum).ordered());
+    }
     let mut sum = c[2];
     for x in &c[3..] {
         sum = sum + *x;
@@ -219,18 +279,23 @@ pub(crate) fn total<N: Number, const LEN: usize>(c: &[N; LEN]) -> N {
 pub(crate) fn value<N: Number>(c: &[N], tau: N) -> N {
     let mut sum = c[c.len() - 1];
     for k in (0..c.len() - 1).rev() {
-        sum = sum.mul_add(tau, c[k]);
+        sum = if k < fine(c.len()) {
+            sum.mul_add(tau, c[k])
+        } else {
+            sum.rough_product(tau, c[k])
+        };
     }
     sum
 }
 
-/// Derivative of the polynomial `c` at `tau`.
+/// Derivative of the polynomial `c` at `tau`, in graded arithmetic to half of
+/// the digits.
 #[inline(always)]
 pub(crate) fn slope<N: Number>(c: &[N], tau: N) -> N {
     let last = c.len() - 1;
     let mut sum = c[last] * N::ratio(last as i32, 1);
     for k in (1..last).rev() {
-        sum = sum.mul_add(tau, c[k] * N::ratio(k as i32, 1));
+        sum = sum.rough_product(tau, c[k] * N::ratio(k as i32, 1));
     }
     sum
 }
@@ -238,19 +303,16 @@ pub(crate) fn slope<N: Number>(c: &[N], tau: N) -> N {
 /// Sum of the sizes of the coefficients `c`, the last first.
 #[inline(always)]
 pub(crate) fn size<N: Number>(c: &[N]) -> N {
-    let mut sum = N::zero();
-    for k in (0..c.len()).rev() {
-        sum = sum + c[k].abs();
-    }
-    sum
+    size_at(c, N::one())
 }
 
-/// Value at `tau` of the polynomial of the sizes of the coefficients `c`.
+/// Value at `tau` of the polynomial of the sizes of the coefficients `c`, in
+/// graded arithmetic a close bound on it.
 #[inline(always)]
 pub(crate) fn size_at<N: Number>(c: &[N], tau: N) -> N {
     let mut sum = N::zero();
     for k in (0..c.len()).rev() {
-        sum = sum.mul_add(tau, c[k].abs());
+        sum = sum.rough_product(tau, c[k].abs());
     }
-    sum
+    if N::IS_GRADED { sum * N::from_f64(CLOSE) } else { sum }
 }

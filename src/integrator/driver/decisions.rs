@@ -1,13 +1,13 @@
 //! Decisions of a run, each compared with the error of the state.
 
 use crate::integrator::ImpactError;
-use crate::integrator::accuracy::{Accuracy, Leg};
+use crate::integrator::accuracy::{Accuracy, HopStep, Leg, NearBase};
 use crate::integrator::certificate::{CLEARANCE, Decision, LARGEST_ERROR};
 use crate::integrator::coast::{gap, gap_gradient};
 use crate::integrator::driver::Driver;
 use crate::integrator::driver::events::next_turning;
 use crate::integrator::driver::impact::Chatter;
-use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::dynamics::{Drive, Dynamics, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Moment};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::PROPAGATION;
@@ -17,6 +17,12 @@ use crate::number::Real;
 /// Ratio of a rotation beyond overturning to its error at which the search
 /// ends.
 const FAR_BEYOND: f64 = 1e4;
+
+/// Coefficients of a forcing that is linear within a piece.
+const LINEAR: usize = 2;
+
+/// Most pieces over which small hops are followed at rest.
+const MOST_PIECES: usize = 64;
 
 /// Relative slack of bounds that are taken in double precision.
 const SLACK: f64 = 1e-14;
@@ -39,13 +45,29 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         &mut self,
         series: &TaylorSeries<N, LEN>,
         (x, tau): (N, N),
-        flown: &Leg,
+        (flown, end_w): (&Leg, f64),
         place: Moment<N>,
     ) {
         let end = Moment { offset: place.offset + tau, ..place };
         let time_s = self.time_s(end).to_f64();
         let mut worst = 0.0_f64;
+        let hop = HopStep {
+            tau: flown.tau,
+            end: time_s * self.dynamics.p.to_f64(),
+            end_s: time_s,
+            f: [flown.f, flown.rate.mul_add(flown.tau, flown.f)],
+            rate: flown.rate,
+            threshold: flown.threshold,
+            cosine: self.dynamics.cosine.to_f64(),
+            eta: self.dynamics.eta.to_f64(),
+            w: end_w,
+        };
         for tracker in self.record.trackers() {
+            if tracker.hops.is_some() {
+                tracker.hop(&hop);
+                worst = worst.max(CLEARANCE * tracker.error());
+                continue;
+            }
             tracker.step(flown);
             worst = worst.max(CLEARANCE * tracker.fly(time_s));
         }
@@ -83,6 +105,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         !(low > slack && high + slack < peak && high + slack < limit)
     }
 
+    /// A motion [u, w] near the base.
+    fn near_base(&self, [u, w]: [f64; 2], time_s: f64) -> NearBase {
+        let Dynamics { threshold, p, eta, .. } = self.dynamics;
+        let [most, p, eta] = [threshold + threshold, p, eta].map(Real::to_f64);
+        NearBase { u, w, time: time_s * p, most, eta }
+    }
+
     #[inline(always)]
     fn assess_turnings<const LEN: usize>(
         &mut self,
@@ -100,13 +129,17 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let u = value(&series.c, at);
             let below = (limit - u).to_f64();
             let u = u.to_f64();
+            let near = self.near_base([u, 0.0], time_s);
             for tracker in self.record.trackers() {
                 let error = tracker.error();
                 if rising {
                     tracker.reach(u, error);
                     let decision = Decision::Overturning;
                     tracker.decide(decision, below, error, time_s);
-                } else {
+                } else if u >= CLEARANCE * error
+                    || F > LINEAR
+                    || !tracker.hops_begin(&near)
+                {
                     tracker.decide(Decision::Contact, u, error, time_s);
                 }
             }
@@ -214,6 +247,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             left: left.to_f64(),
             threshold,
             f: drive.f[0].to_f64(),
+            rate,
             shift,
             w: w0,
             force: acceleration,
@@ -235,9 +269,24 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let after = -self.dynamics.restoring(f[0]);
         let accelerations = [before, after].map(Real::to_f64);
         let eta = self.dynamics.eta.to_f64();
+        let near = self.near_base([0.0, speed.to_f64()], time_s);
         let note = |tracker: &mut Accuracy| {
+            if let Some(hops) = tracker.hops {
+                tracker.resting |= self.rests_within(place, hops.speed, f);
+                return [f64::INFINITY; 2];
+            }
+            let before = *tracker;
             let speed = speed.to_f64();
             let errors = tracker.impact(eta, speed, accelerations, time_s);
+            let is_lost = before.certificate.is_clear()
+                && !tracker.certificate.is_clear();
+            if F <= LINEAR && is_lost {
+                let after = std::mem::replace(tracker, before);
+                if tracker.hops_begin(&near) {
+                    return [f64::INFINITY; 2];
+                }
+                *tracker = after;
+            }
             tracker.resting |=
                 !tracker.resting && self.surely_rests(place, speed, errors, f);
             errors
@@ -248,7 +297,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         inputs.as_mut().map(note);
         (self.record.accuracy, self.record.inputs) = (Some(own), inputs);
         let p = self.dynamics.p.to_f64();
-        own.certificate.is_clear().then(|| ImpactError {
+        let is_known = own.certificate.is_clear() && own.hops.is_none();
+        is_known.then(|| ImpactError {
             time_s: late / p + 2.0 * N::ROUNDOFF * time_s,
             speed_rad_s: met * p,
         })
@@ -276,23 +326,84 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         let mut f = *f;
         f[0] = if f[0] < N::zero() { f[0] - shift } else { f[0] + shift };
-        self.accumulation(&f, w, left - late).is_some()
+        let chatter = self.accumulation(&f, w, left - late);
+        chatter.is_some_and(|chatter| self.is_below_peak(&chatter))
     }
 
-    /// Notes a rest at the end of a chatter after an impact with some error.
+    /// True if hops of at most a speed surely end in a rest within the piece of
+    /// a place, with the forcing `f` there.
+    fn rests_within(&self, at: Moment<N>, speed: f64, f: &[N; F]) -> bool {
+        let left = self.forcing.length(at.piece) - at.offset;
+        self.accumulation(f, N::from_f64(speed), left).is_some()
+    }
+
+    /// Follows small hops, while the computed motion rests from a place on, up
+    /// to the next uplift or to the end of all hops.
+    fn hop_at_rest(&self, tracker: &mut Accuracy, from: Moment<N>) {
+        let Dynamics { threshold, cosine, eta, .. } =
+            self.dynamics;
+        let [threshold, cosine, eta] =
+            [threshold, cosine, eta].map(Real::to_f64);
+        let mut place = from;
+        for _ in 0..MOST_PIECES {
+            let f = self.forcing.series(place);
+            let Some(hops) = tracker.hops else { return };
+            if self.rests_within(place, hops.speed, &f) {
+                tracker.resting = true;
+                return;
+            }
+            let tau = self.forcing.length(place.piece) - place.offset;
+            let rate = f.get(1).map_or(0.0, |rate| rate.to_f64());
+            let f = [f[0], value(&f, tau)].map(Real::to_f64);
+            let next = Moment { piece: place.piece + 1, offset: N::zero() };
+            let end_s = self.time_s(next).to_f64();
+            let end = end_s * self.dynamics.p.to_f64();
+            let (tau, w) = (tau.to_f64(), 0.0);
+            tracker.hop(&HopStep {
+                tau,
+                end,
+                end_s,
+                f,
+                rate,
+                threshold,
+                cosine,
+                eta,
+                w,
+            });
+            let lifts = f[1].abs() > threshold;
+            if lifts || next.piece >= self.forcing.pieces() {
+                return;
+            }
+            place = next;
+        }
+        tracker.lose_hops(self.time_s(place).to_f64());
+    }
+
+    /// Notes a rest at the end of a chatter that begins at a place with an
+    /// impact, with some error, from a speed to another.
     #[inline(never)]
     pub(super) fn assess_rest(
         &mut self,
+        from: Moment<N>,
         chatter: &Chatter<N>,
-        speed: N,
+        (speed, w): (N, N),
         impact: Option<ImpactError>,
         time_s: N,
     ) {
         let (rest_s, p) = (time_s.to_f64(), self.dynamics.p.to_f64());
+        let near = self.near_base([0.0, w.to_f64()], rest_s);
         let speed = speed.to_f64() * p;
-        for tracker in self.record.trackers() {
+        let rest = |tracker: &mut Accuracy| {
+            if !tracker.resting && F <= LINEAR {
+                if tracker.hops.is_some() || tracker.hops_begin(&near) {
+                    self.hop_at_rest(tracker, from);
+                }
+            }
             tracker.rest(rest_s);
-        }
+        };
+        let mut trackers = (self.record.accuracy, self.record.inputs);
+        trackers.0.iter_mut().chain(&mut trackers.1).for_each(rest);
+        (self.record.accuracy, self.record.inputs) = trackers;
         let after = chatter.time.to_f64() / p;
         let spread = chatter.spread.to_f64().abs();
         self.record.rest_error_s = impact.map(|impact| {

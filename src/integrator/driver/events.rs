@@ -5,7 +5,7 @@ use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
-use crate::integrator::roots::first_descent;
+use crate::integrator::roots::{SURELY, bends, first_descent};
 use crate::integrator::taylor::{TaylorSeries, expand, size, size_at, value};
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Kernel};
@@ -225,6 +225,12 @@ pub(super) fn next_turning<N: Real, const LEN: usize>(
     let turn = first_descent(v, left, isa)?;
     if !(turn < left) {
         return None;
+    }
+    // A velocity that surely rises or falls has no other root.
+    let (steep, _) = bends(v, N::one());
+    if v[1].abs() + steep * N::from_f64(SURELY) > N::zero() {
+        *v = [N::zero(); LEN];
+        return Some((turn, rising));
     }
     if !rising {
         *v = v.map(|x| -x);

@@ -28,6 +28,8 @@ pub(crate) struct Chatter<N> {
     pub time: N,
     /// Relative bound on the change of `time` by varying accelerations.
     pub spread: N,
+    /// Bound on the rotation after the first impact.
+    rise: N,
 }
 
 /// The number, if it is positive.
@@ -87,7 +89,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let chatter = self.chatter(&f, w, left)?;
         let (place, time_s) = self.later(step.place, w, chatter.time);
         if self.record.accuracy.is_some() {
-            self.assess_rest(&chatter, speed, error, time_s);
+            self.assess_rest(place, &chatter, (speed, w), error, time_s);
         }
         Some(Flight::Rest(place, time_s))
     }
@@ -159,6 +161,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         left: N,
     ) -> Option<Chatter<N>> {
         let chatter = self.accumulation(f, w, left)?;
+        if !self.is_below_peak(&chatter) {
+            return None;
+        }
         let tail = if self.observe.events {
             tail_speed::<N>()
         } else if self.record.forces.is_some() {
@@ -167,6 +172,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             f64::INFINITY
         };
         (w < self.dynamics.alpha * N::from_f64(tail)).then_some(chatter)
+    }
+
+    /// True if no hop of a chatter raises the peak.
+    #[inline(always)]
+    pub(super) fn is_below_peak(&self, chatter: &Chatter<N>) -> bool {
+        chatter.rise == N::zero() || chatter.rise < self.record.peak
     }
 
     /// The chatter after an impact that leaves speed `w`, if its impacts
@@ -185,7 +196,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) -> Option<Chatter<N>> {
         let margin = self.dynamics.threshold - f[0].abs();
         if w == N::zero() {
-            let chatter = Chatter { time: N::zero(), spread: N::zero() };
+            let zero = N::zero();
+            let chatter = Chatter { time: zero, spread: zero, rise: zero };
             return (!(margin < N::zero())).then_some(chatter);
         }
         let two = N::from_f64(2.0);
@@ -232,17 +244,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if !(bound < window) {
             return None;
         }
-        // A hop of the tail must not raise the peak.
-        if !(w * w / (two * least) * worst < self.record.peak) {
-            return None;
-        }
+        let rise = w * w / (two * least) * worst;
         // 2 w [1/D + eta/D'] / (1 - eta^2), D and D' on the two branches.
         let up = self.dynamics.restoring(f[0]);
         let down = self.dynamics.restoring(-f[0]);
         let hops = N::one() / up + eta / down;
         let time = two * w * hops / (N::one() - eta * eta);
         let spread = (worst - N::one()) / (N::one() - decay);
-        Some(Chatter { time, spread })
+        Some(Chatter { time, spread, rise })
     }
 }
 

@@ -8,7 +8,9 @@ use crate::integrator::dynamics::{
 use crate::integrator::forcing::{Forcing, Moment};
 use crate::integrator::motion::BlockMotion;
 use crate::integrator::screen::ScreenLeg;
-use crate::integrator::taylor::{TaylorSeries, expand, slope, value};
+use crate::integrator::taylor::{
+    TaylorSeries, expand, fine, size, slope, value,
+};
 use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
 use crate::number::{Number, Real};
@@ -94,7 +96,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             };
             let ends = [(u, w), (end_u, end_w)];
             let flown = self.flown(ends, tau, drive, left);
-            self.assess(series, (x, tau), &flown, step.place);
+            let end_w = end_w.to_f64();
+            self.assess(series, (x, tau), (&flown, end_w), step.place);
         }
         self.turning_points(series, x, (step.place, length));
         if let Some(screen) = &mut self.screen {
@@ -233,8 +236,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize> Kernel
     }
 }
 
-/// An assessed step, compiled for each instruction-set level. It expands the
-/// longest series; the series of the step is its beginning.
+/// An assessed step, compiled for each instruction-set level. In double
+/// precision it expands the longest series; the series of the step is its
+/// beginning.
 struct AssessedStepKernel<'d, D, N, const LEN: usize> {
     driver: D,
     step: &'d mut Step<N>,
@@ -255,17 +259,24 @@ where
         let BlockMotion { side, u, w } = step.motion;
         let drive = driver.drive(step.place, (side, u), step.at_threshold);
         let model = driver.dynamics.model;
+        if LEN == HARD || N::ROUNDOFF < f64::ROUNDOFF {
+            let series: TaylorSeries<N, LEN> =
+                expand(model, (u, w), length, &drive);
+            let mut left = surely_left_by(&series.v, length);
+            if N::IS_GRADED {
+                let rough = size(&series.v[fine(LEN) - 1..]);
+                left = left + rough * N::from_f64(f64::EPSILON);
+            }
+            return driver.take(step, length, &series, &drive, Some(left));
+        }
         let long: TaylorSeries<N, HARD> =
             expand(model, (u, w), length, &drive);
         let series: TaylorSeries<N, LEN> = long.beginning();
-        let mut left = surely_left_by(&long.v, length);
-        if LEN < HARD {
-            let (end, longer) = (series.end(), long.end());
-            let by_w = (longer.1 - end.1).abs();
-            let by_u = (longer.0 - end.0).abs() / length;
-            let most = if by_u > by_w { by_u } else { by_w };
-            left = most + left;
-        }
+        let (end, longer) = (series.end(), long.end());
+        let by_w = (longer.1 - end.1).abs();
+        let by_u = (longer.0 - end.0).abs() / length;
+        let most = if by_u > by_w { by_u } else { by_w };
+        let left = most + surely_left_by(&long.v, length);
         driver.take(step, length, &series, &drive, Some(left))
     }
 }

@@ -178,7 +178,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// A driver for the free motion after the excitation.
-    fn free(&self) -> Driver<N, Shaking<'static, N>, HARD, HARD> {
+    fn free(&self) -> Driver<N, Shaking<N>, HARD, HARD> {
         let silence = Shaking::endless(self.end_s(), self.dynamics.p);
         let mut free = Driver::new(self.dynamics, silence, self.isa);
         free.observe = self.observe;
@@ -187,7 +187,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 }
 
-impl<N: Real, const LEN: usize> Driver<N, Shaking<'_, N>, LEN, LEN> {
+impl<N: Real, const LEN: usize> Driver<N, Shaking<N>, LEN, LEN> {
     /// Flies from the start to the end of the flight or to the limit of work.
     fn fly_free(&mut self, motion: BlockMotion<N>) -> Flight<N> {
         let mut stage = Stage::Flying(Step::first(motion));

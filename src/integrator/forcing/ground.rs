@@ -1,42 +1,30 @@
-//! Every kind of ground motion, or none, as one type, for runs in which the
-//! compiler need not know the kind of excitation.
+//! A pulse, or no ground motion, as one type.
 
-use crate::excitation::{Excitation, RecordIndex};
+use crate::excitation::Excitation;
 use crate::integrator::Scene;
 use crate::integrator::forcing::{
-    Exceedance, Forcing, LONGEST_STEP, Moment, PulseForcing, RecordForcing,
-    Remainder, RestScan,
+    Exceedance, Forcing, LONGEST_STEP, Moment, PulseForcing, RestScan,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 
-/// A ground motion of any kind. Its series has as many coefficients as a
-/// pulse needs; those that a record lacks are zero.
-pub(crate) enum Shaking<'a, N> {
-    /// A record.
-    Record(RecordForcing<'a, N>),
+/// A ground motion that is no record.
+pub(crate) enum Shaking<N> {
     /// A pulse.
     Pulse(PulseForcing<N>),
     /// No motion.
     Silence(Silence<N>),
 }
 
-impl<'a, N: Real> Shaking<'a, N> {
-    /// The ground motion of a scene. A record comes with its index.
-    pub fn of(
-        scene: &Scene<'a>,
-        index: Option<&'a RecordIndex>,
-        isa: Isa,
-    ) -> Self {
+impl<N: Real> Shaking<N> {
+    /// The pulse of a scene, or no motion.
+    pub fn of(scene: &Scene<'_>, isa: Isa) -> Self {
         let p = scene.block.frequency_rad_s();
-        match (scene.excitation, index) {
-            (Excitation::Record(record), Some(index)) => {
-                Self::Record(RecordForcing::new(record, index, p))
-            }
-            (Excitation::Pulse(pulse), _) => {
+        match scene.excitation {
+            Excitation::Pulse(pulse) => {
                 Self::Pulse(PulseForcing::new(pulse, p, isa))
             }
-            (Excitation::Record(_) | Excitation::Free, _) => Self::nothing(),
+            Excitation::Record(_) | Excitation::Free => Self::nothing(),
         }
     }
 
@@ -62,10 +50,9 @@ pub(crate) struct Silence<N> {
     p: N,
 }
 
-impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
+impl<N: Real, const F: usize> Forcing<N, F> for Shaking<N> {
     fn pieces(&self) -> usize {
         match self {
-            Self::Record(record) => record.pieces(),
             Self::Pulse(pulse) => Forcing::<N, F>::pieces(pulse),
             Self::Silence(silence) => silence.pieces,
         }
@@ -73,7 +60,6 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
 
     fn start_s(&self, piece: usize) -> N {
         match self {
-            Self::Record(record) => record.start_s(piece),
             Self::Pulse(pulse) => Forcing::<N, F>::start_s(pulse, piece),
             Self::Silence(Silence { start_s, length, p, .. }) => {
                 N::from_f64(piece as f64).mul_add(*length / *p, *start_s)
@@ -83,31 +69,16 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
 
     fn length(&self, piece: usize) -> N {
         match self {
-            Self::Record(record) => record.length(piece),
             Self::Pulse(pulse) => Forcing::<N, F>::length(pulse, piece),
             Self::Silence(silence) => silence.length,
         }
     }
 
-    fn steps(&self) -> usize {
-        match self {
-            Self::Record(record) => record.steps(),
-            Self::Pulse(_) | Self::Silence(_) => 1,
-        }
-    }
-
     fn series(&self, place: Moment<N>) -> [N; F] {
-        let mut series = [N::zero(); F];
         match self {
-            Self::Record(record) => {
-                for (to, from) in series.iter_mut().zip(record.series(place)) {
-                    *to = from;
-                }
-            }
-            Self::Pulse(pulse) => series = pulse.series(place),
-            Self::Silence(_) => {}
+            Self::Pulse(pulse) => pulse.series(place),
+            Self::Silence(_) => [N::zero(); F],
         }
-        series
     }
 
     fn exceedance(
@@ -116,7 +87,6 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
         threshold: N,
     ) -> (Option<Exceedance<N>>, RestScan<N>) {
         match self {
-            Self::Record(record) => record.exceedance(from, threshold),
             Self::Pulse(pulse) => {
                 Forcing::<N, F>::exceedance(pulse, from, threshold)
             }
@@ -129,14 +99,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for Shaking<'_, N> {
     fn span(&self) -> f64 {
         match self {
             Self::Pulse(pulse) => Forcing::<N, F>::span(pulse),
-            Self::Record(_) | Self::Silence(_) => 0.0,
-        }
-    }
-
-    fn remainder(&self) -> Option<Remainder<'_, N>> {
-        match self {
-            Self::Record(record) => record.remainder(),
-            Self::Pulse(_) | Self::Silence(_) => None,
+            Self::Silence(_) => 0.0,
         }
     }
 }

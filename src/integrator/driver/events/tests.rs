@@ -7,7 +7,7 @@ use crate::integrator::taylor::TaylorSeries;
 use crate::number::dispatch::Isa;
 
 /// A block that overturns at 0.5.
-fn driver() -> Driver<f64, Shaking<'static, f64>, 1, 4> {
+fn driver() -> Driver<f64, Shaking<f64>, 1, 4> {
     let block = Block::try_new(0.5, 1.0).unwrap();
     let restitution = Restitution::constant(0.9).unwrap();
     let dynamics = Dynamics::new(

@@ -17,7 +17,7 @@ use thiserror::Error;
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
-    Forces, Model, Order, Overturning, SceneError, WorkLimit,
+    Extent, Forces, Model, Order, Overturning, SceneError, WorkLimit,
 };
 use crate::names::named;
 use crate::number::dispatch::Isa;
@@ -98,6 +98,9 @@ pub struct Analysis {
     /// [`certify`](crate::integrator::certify)); the curve continues from that
     /// result. Otherwise they are flagged. Ignored at a fixed order.
     pub certify: bool,
+    /// How much of each run is needed: outcome and peak, or only the outcome,
+    /// for curves of which only the overturning is used.
+    pub extent: Extent,
     /// Work limit of a level.
     pub work_limit: WorkLimit,
 }
@@ -133,6 +136,7 @@ impl Analysis {
             resurrections: None,
             order: None,
             certify: false,
+            extent: Extent::Peak,
             work_limit: WorkLimit::IDA,
         }
     }

@@ -153,6 +153,22 @@ named! {
     }
 }
 
+named! {
+    /// How much of a run is needed.
+    pub enum Extent: "extent of a run" {
+        /// All of it.
+        Whole = "whole",
+        /// Outcome and peak: the run ends as soon as nothing can change them.
+        /// They, the fate margin, the time of the peak and the first uplift
+        /// are those of a whole run, to the last bit. Impacts, rest and
+        /// history end with the run.
+        Peak = "peak",
+        /// The outcome: the run ends as soon as it is certain, and the peak is
+        /// the largest rotation until then.
+        Outcome = "outcome",
+    }
+}
+
 /// Options of an integration in double precision. The default is that of
 /// [`respond`].
 /// ```
@@ -174,7 +190,7 @@ named! {
 ///     Restitution::constant(0.92)?,
 ///     Excitation::Record(ScaledRecord::to_pga(&record, 0.15)),
 /// );
-/// let solver = Solver { peak_only: true, ..Solver::default() };
+/// let solver = Solver { extent: Extent::Peak, ..Solver::default() };
 /// let peak = solver.respond(&scene, &Observe::default())?;
 /// let whole = respond(&scene, &Observe::default())?;
 /// assert_eq!(peak.outcome, whole.outcome);
@@ -189,15 +205,13 @@ pub struct Solver {
     pub order: Option<Order>,
     /// Instruction-set level. It changes only the speed.
     pub isa: Isa,
-    /// The run ends as soon as nothing can change outcome or peak. Outcome,
-    /// fate margin, peak with its time, and first uplift are those of a whole
-    /// run, to the last bit. Impacts, rest and history end with the run.
-    pub peak_only: bool,
+    /// How much of a run is needed.
+    pub extent: Extent,
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { order: None, isa: Isa::best(), peak_only: false }
+        Self { order: None, isa: Isa::best(), extent: Extent::Whole }
     }
 }
 
@@ -211,9 +225,10 @@ impl Solver {
         scene: &Scene<'_>,
         observe: &Observe,
     ) -> Result<Response, SceneError> {
+        let ends_early = self.extent != Extent::Whole;
         // The result of a fixed order is kept; the caller of a run for only
         // the peak reads its estimate.
-        if observe.accuracy || self.order.is_some() || self.peak_only {
+        if observe.accuracy || self.order.is_some() || ends_early {
             return self.respond_once(scene, observe);
         }
         check(scene, observe)?;

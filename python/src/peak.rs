@@ -15,7 +15,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, IdaCurve, for_each_curve};
 use rocking::integrator::{
-    Model, Observe, Overturning, Solver, WorkLimit, uplift_threshold,
+    Extent, Model, Observe, Overturning, Solver, WorkLimit, uplift_threshold,
 };
 use rocking::stop;
 
@@ -193,7 +193,7 @@ impl PeakTask {
             overturning: self.overturning,
             ..Scene::new(block, restitution, scaled.excitation())
         };
-        let solver = Solver { peak_only: true, ..Solver::default() };
+        let solver = Solver { extent: Extent::Peak, ..Solver::default() };
         let observe =
             Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
         let response = solver.respond(&scene, &observe);

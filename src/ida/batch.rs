@@ -24,7 +24,9 @@ use crate::ida::levels::ImLevel;
 use crate::ida::{Analysis, IdaCurve, IdaError, IdaPoint, curve_at};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
-use crate::integrator::{Response, Scene, WorkLimit, uplift_threshold};
+use crate::integrator::{
+    Extent, Response, Scene, WorkLimit, uplift_threshold,
+};
 use crate::number::dispatch::Isa;
 
 /// Options of [`curves`]. Default: the best instruction-set level of the
@@ -354,12 +356,13 @@ impl<'a> Desk<'_, 'a> {
 impl<'a> pool::SceneSource<'a> for Desk<'_, 'a> {
     type Task = Task<'a>;
 
-    fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, WorkLimit)> {
+    fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, Extent, WorkLimit)> {
         let last = self.last;
         let task = self.with_book(|book| book.take(last));
         task.map(|task| {
             let ImLevel { scene, of, .. } = task.level;
-            (task, scene, of.analysis.work_limit)
+            let Analysis { extent, work_limit, .. } = *of.analysis;
+            (task, scene, extent, work_limit)
         })
     }
 

@@ -145,9 +145,9 @@ impl<'a> ImLevels<'a> {
 impl ImLevel<'_> {
     /// Runs the level alone.
     pub fn run(&self, isa: Isa) -> Result<IdaPoint, IdaError> {
-        let Analysis { work_limit, order, .. } = *self.of.analysis;
+        let Analysis { work_limit, order, extent, .. } = *self.of.analysis;
         let observe = Observe { work_limit, ..Observe::default() };
-        let solver = Solver { order, isa, peak_only: true };
+        let solver = Solver { order, isa, extent };
         let response = solver.respond(&self.scene, &observe);
         self.point(&response.map_err(|error| self.refused(error))?)
     }
@@ -190,8 +190,8 @@ impl ImLevel<'_> {
             let resolution = Resolution::roughly(is_resolved);
             (response.outcome, response.fate_margin, resolution)
         } else {
-            let work_limit = self.of.analysis.work_limit;
-            let ask = Certify { work_limit, ..Certify::default() };
+            let Analysis { work_limit, extent, .. } = *self.of.analysis;
+            let ask = Certify { work_limit, extent, ..Certify::default() };
             let fate = integrator::certify(&self.scene, &ask);
             let fate = fate.map_err(|error| self.refused(error))?;
             let resolution = Resolution {

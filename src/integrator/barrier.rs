@@ -59,7 +59,7 @@
 //! on the energy of Eqs. 1 and 2 (`least_potential`, `lean`, `BarrierHop`), on
 //! an impact that leaves -eta y - (1 - eta) v c of y with a constant eta of at
 //! most 1, and on a peak below the saddle. Under another impact law,
-//! `Driver::for_peak` and `Driver::observe` take no barrier until P1 is proved
+//! `Driver::for_extent` and `Driver::observe` take no barrier until P1 is proved
 //! for it. (`Barrier::none` is no substitute: it is a barrier that a run
 //! raises later.)
 

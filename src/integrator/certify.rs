@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::integrator::precise::respond_precisely;
 use crate::integrator::{
-    Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
-    SceneError, Solver, WorkLimit,
+    Assessment, Certificate, Clearance, Extent, Observe, Outcome, Response,
+    Scene, SceneError, Solver, WorkLimit,
 };
 use crate::names::named;
 use crate::number::Real;
@@ -55,6 +55,8 @@ pub struct Certify<'a> {
     pub until_s: Option<f64>,
     /// Work limit of each of up to three runs.
     pub work_limit: WorkLimit,
+    /// How much of the run is needed: outcome and peak, or only the outcome.
+    pub extent: Extent,
     /// Called before each step of a run in wider arithmetic than double
     /// precision, with that arithmetic and the time (s) in the scene.
     pub progress: &'a dyn Fn(Arithmetic, f64),
@@ -63,7 +65,8 @@ pub struct Certify<'a> {
 impl Default for Certify<'_> {
     fn default() -> Self {
         let work_limit = WorkLimit::default();
-        Self { until_s: None, work_limit, progress: &|_, _| {} }
+        let extent = Extent::Peak;
+        Self { until_s: None, work_limit, extent, progress: &|_, _| {} }
     }
 }
 
@@ -72,6 +75,7 @@ impl fmt::Debug for Certify<'_> {
         f.debug_struct("Certify")
             .field("until_s", &self.until_s)
             .field("work_limit", &self.work_limit)
+            .field("extent", &self.extent)
             .finish_non_exhaustive()
     }
 }
@@ -103,7 +107,11 @@ pub struct CertifiedFate {
 }
 
 impl CertifiedFate {
-    fn of<N: Real>(response: &Response<N>, by: Arithmetic) -> Self {
+    fn of<N: Real>(
+        response: &Response<N>,
+        extent: Extent,
+        by: Arithmetic,
+    ) -> Self {
         let outcome = match response.outcome {
             Outcome::NoUplift => Outcome::NoUplift,
             Outcome::Rocked { peak_ratio } => {
@@ -117,7 +125,8 @@ impl CertifiedFate {
         let certificate = of(response.certificate);
         let clear = response.assessment() == Assessment::Clear;
         let error = response.error_estimate;
-        let close = error.is_some_and(|error| error <= PEAK_ERROR);
+        let close = extent == Extent::Outcome
+            || error.is_some_and(|error| error <= PEAK_ERROR);
         let of_inputs = of(response.input_certificate);
         Self {
             outcome,
@@ -178,9 +187,9 @@ pub fn certify(
     let accuracy = true;
     let observe =
         Observe { accuracy, until_s, work_limit, ..Observe::default() };
-    let solver = Solver { peak_only: true, ..Solver::default() };
+    let solver = Solver { extent: ask.extent, ..Solver::default() };
     let quick = solver.respond_once(scene, &observe)?;
-    let quick = CertifiedFate::of(&quick, Arithmetic::Double);
+    let quick = CertifiedFate::of(&quick, ask.extent, Arithmetic::Double);
     if quick.resolved {
         return Ok(quick);
     }
@@ -203,8 +212,9 @@ fn fate_in<N: Real>(
     by: Arithmetic,
 ) -> Result<CertifiedFate, SceneError> {
     let report = |time_s| (ask.progress)(by, time_s);
-    let response = respond_precisely::<N>(scene, observe, true, &report)?;
-    Ok(CertifiedFate::of(&response, by))
+    let response =
+        respond_precisely::<N>(scene, observe, ask.extent, &report)?;
+    Ok(CertifiedFate::of(&response, ask.extent, by))
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, Moment, NEAR_THRESHOLD};
 use crate::integrator::motion::{BlockMotion, RunTrace};
 use crate::integrator::screen::Screen;
-use crate::integrator::{Observe, Response, Scene, SceneError, Side};
+use crate::integrator::{Extent, Observe, Response, Scene, SceneError, Side};
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 
@@ -83,8 +83,9 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     pub again: Again,
     /// Early-termination test; `None` if the whole run is needed.
     barrier: Option<Barrier<N>>,
-    /// True if only outcome and peak are needed.
+    /// True if only outcome and peak are needed, or only the outcome.
     ends_early: bool,
+    outcome_only: bool,
     /// First piece at which the early-termination test runs.
     pub exit_from: usize,
 }
@@ -162,14 +163,19 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             again: Again::No,
             barrier: None,
             ends_early: false,
+            outcome_only: false,
             exit_from: 0,
         }
     }
 
-    /// Ends as soon as outcome and peak are known. Nothing else may be
+    /// Ends as soon as the needed part of a run is known. Nothing else may be
     /// observed.
     #[inline(always)]
-    pub fn for_peak(mut self) -> Self {
+    pub fn for_extent(mut self, extent: Extent) -> Self {
+        if extent == Extent::Whole {
+            return self;
+        }
+        self.outcome_only = extent == Extent::Outcome;
         let matters = self.dynamics.overturning == Overturning::Alpha;
         self.barrier = matters.then(Barrier::none);
         self.ends_early = matters;

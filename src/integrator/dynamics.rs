@@ -16,7 +16,7 @@
 //! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
 //!
 //! A further overturning criterion is a variant of [`Overturning`] and its
-//! `limit`. The compiler does not find `for_peak`, `see_peak`, `Beyond` and
+//! `limit`. The compiler does not find `for_extent`, `see_peak`, `Beyond` and
 //! `coast`, which compare criteria with `==`.
 
 use crate::block::{Block, Restitution};

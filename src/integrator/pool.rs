@@ -29,7 +29,7 @@ use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Moment, RecordForcing, steps_of};
-use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
+use crate::integrator::{Extent, Observe, Order, Response, Scene, WorkLimit};
 use crate::number::dispatch::{Isa, WithSimd};
 use crate::number::lanes::{Simd, WIDTH};
 use crate::stop;
@@ -58,7 +58,7 @@ pub(crate) trait SceneSource<'a> {
     type Task;
 
     /// The next analysis; `None` if there is none now.
-    fn take(&mut self) -> Option<(Self::Task, Scene<'a>, WorkLimit)>;
+    fn take(&mut self) -> Option<(Self::Task, Scene<'a>, Extent, WorkLimit)>;
 
     /// Takes the response of an analysis; `None` if its work passed its limit.
     fn settle(&mut self, task: Self::Task, response: Option<&Response>);
@@ -202,7 +202,7 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
 
     /// A run at its first step.
     fn begin(&mut self) -> Option<Slot<'a, S::Task>> {
-        let (task, scene, work_limit) = self.source.take()?;
+        let (task, scene, extent, work_limit) = self.source.take()?;
         let Excitation::Record(record) = scene.excitation else { return None };
         let index = record.index()?;
         let Scene { block, restitution, model, overturning, .. } = scene;
@@ -210,7 +210,7 @@ impl<'a, S: SceneSource<'a>, const LEN: usize, const HARD: usize>
         let forcing =
             RecordForcing::new(record, index, block.frequency_rad_s());
         let mut driver = Driver::new(dynamics, forcing, self.isa)
-            .for_peak()
+            .for_extent(extent)
             .within(self.class.tolerance());
         let observe = Observe { work_limit, ..Observe::default() };
         let stage = driver.begin(&scene, &observe);

@@ -8,7 +8,7 @@ use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{Forcing, RecordForcing, Shaking};
 use crate::integrator::roots::MOST;
 use crate::integrator::run::index_of;
-use crate::integrator::{Observe, Response, Scene, SceneError, check};
+use crate::integrator::{Extent, Observe, Response, Scene, SceneError, check};
 use crate::number::dispatch::Isa;
 use crate::number::{Real, SeriesWork};
 
@@ -66,11 +66,10 @@ pub fn respond_precise<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
 ) -> Result<Response<N>, SceneError> {
-    respond_precisely(scene, observe, false, &|_| {})
+    respond_precisely(scene, observe, Extent::Whole, &|_| {})
 }
 
-/// [`respond_precise`]; with `peak_only` it ends as soon as outcome and peak
-/// are surely known. Calls `progress` with the time (s) in the scene before
+/// The needed part of [`respond_precise`]. Calls `progress` with the time (s) in the scene before
 /// each step.
 ///
 /// # Errors
@@ -78,12 +77,12 @@ pub fn respond_precise<N: Real>(
 pub(crate) fn respond_precisely<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
-    peak_only: bool,
+    extent: Extent,
     progress: &dyn Fn(f64),
 ) -> Result<Response<N>, SceneError> {
     check(scene, observe)?;
     let number = PhantomData::<N>;
-    let run = PreciseRun { scene, observe, peak_only, progress, number };
+    let run = PreciseRun { scene, observe, extent, progress, number };
     N::with_lengths(run)
 }
 
@@ -91,7 +90,7 @@ pub(crate) fn respond_precisely<N: Real>(
 struct PreciseRun<'a, N> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
-    peak_only: bool,
+    extent: Extent,
     progress: &'a dyn Fn(f64),
     number: PhantomData<N>,
 }
@@ -110,8 +109,10 @@ impl<N: Real> SeriesWork for PreciseRun<'_, N> {
         let index = index_of(&record);
         let p = self.scene.block.frequency_rad_s();
         let ground = RecordForcing::new(record, &index, p);
-        let enough = if self.peak_only { ENOUGH } else { 0.0 };
-        let share = enough.max(N::ROUNDOFF);
+        let share = match self.extent {
+            Extent::Whole => N::ROUNDOFF,
+            Extent::Peak | Extent::Outcome => ENOUGH.max(N::ROUNDOFF),
+        };
         if is_short(ground.step(), SHORT, share) {
             self.under::<_, 2, SHORT, LONG>(ground, share)
         } else {
@@ -133,15 +134,13 @@ impl<N: Real> PreciseRun<'_, N> {
         ground: G,
         share: f64,
     ) -> Result<Response<N>, SceneError> {
-        let Self { scene, observe, peak_only, progress, .. } = self;
+        let Self { scene, observe, extent, progress, .. } = self;
         let Scene { block, restitution, model, overturning, .. } = *scene;
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
-        let mut driver =
+        let driver =
             Driver::<N, G, F, LONG>::new(dynamics, ground, Isa::best())
-                .within(TRUNCATION_SHARE * share);
-        if peak_only {
-            driver = driver.for_peak();
-        }
+                .within(TRUNCATION_SHARE * share)
+                .for_extent(extent);
         driver.run::<LEN>(scene, observe, |driver, step| {
             progress(driver.time_s(step.place).to_f64());
         })

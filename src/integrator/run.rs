@@ -82,9 +82,7 @@ impl RunKernel<'_> {
             Driver::<_, _, F, LONGEST>::new(dynamics, forcing, isa)
                 .within(tolerance);
         driver.again = self.again;
-        if self.solver.peak_only {
-            driver = driver.for_peak();
-        }
+        driver = driver.for_extent(self.solver.extent);
         driver.run::<LEN>(self.scene, self.observe, |_, _| {})
     }
 }

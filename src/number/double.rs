@@ -227,7 +227,11 @@ impl Number for DoubleDouble {
         // 1 + y/((n + 1)(n + 2)) (1 + y/((n + 3)(n + 4)) (...)).
         let tail = |n: f64| {
             [7.0, 5.0, 3.0, 1.0].into_iter().fold(1.0, |sum, k| {
-                Number::mul_add(y.hi * sum, 1.0 / ((n + k) * (n + k + 1.0)), 1.0)
+                Number::mul_add(
+                    y.hi * sum,
+                    1.0 / ((n + k) * (n + k + 1.0)),
+                    1.0,
+                )
             })
         };
         let sum = |divisors: &[i32], rest: f64| {

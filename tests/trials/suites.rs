@@ -5,7 +5,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, IdaError, curve};
 use rocking::integrator::{
-    Assessment, Model, Observe, Outcome, Overturning, Response, Scene,
+    Assessment, Extent, Model, Observe, Outcome, Overturning, Response, Scene,
     SceneError, Solver, respond, respond_precise,
 };
 use rocking::number::Real;
@@ -185,7 +185,7 @@ impl Survey {
         if !(missed || near) {
             return Ok(());
         }
-        let solver = Solver { peak_only: true, ..Solver::default() };
+        let solver = Solver { extent: Extent::Peak, ..Solver::default() };
         let quick = solver.respond(scene, &Observe::default())?;
         let truth =
             WideTruth::of(&respond_precise::<DoubleDouble>(scene, &observe)?);

@@ -9,7 +9,8 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
 use crate::integrator::pool::{SceneSource, class_of, run};
 use crate::integrator::{
-    Model, Observe, Overturning, Response, Scene, Solver, WorkLimit, respond,
+    Extent, Model, Observe, Overturning, Response, Scene, Solver, WorkLimit,
+    respond,
 };
 use crate::number::dispatch::Isa;
 
@@ -22,8 +23,9 @@ struct Bench<'a> {
 impl<'a> SceneSource<'a> for Bench<'a> {
     type Task = Scene<'a>;
 
-    fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>, WorkLimit)> {
-        self.left.pop().map(|scene| (scene, scene, WorkLimit::IDA))
+    fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>, Extent, WorkLimit)> {
+        let next = self.left.pop()?;
+        Some((next, next, Extent::Peak, WorkLimit::IDA))
     }
 
     fn settle(&mut self, task: Scene<'a>, response: Option<&Response>) {
@@ -104,7 +106,7 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
 
 /// A run that ends early.
 fn peak(scene: &Scene<'_>) -> Response {
-    let solver = Solver { peak_only: true, ..Solver::default() };
+    let solver = Solver { extent: Extent::Peak, ..Solver::default() };
     let work_limit = WorkLimit::IDA;
     let observe = Observe { work_limit, ..Observe::default() };
     solver.respond(scene, &observe).unwrap()

@@ -340,8 +340,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Follows small hops, while the computed motion rests from a place on, up
     /// to the next uplift or to the end of all hops.
     fn hop_at_rest(&self, tracker: &mut Accuracy, from: Moment<N>) {
-        let Dynamics { threshold, cosine, eta, .. } =
-            self.dynamics;
+        let Dynamics { threshold, cosine, eta, .. } = self.dynamics;
         let [threshold, cosine, eta] =
             [threshold, cosine, eta].map(Real::to_f64);
         let mut place = from;

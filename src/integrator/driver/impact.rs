@@ -110,7 +110,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         self.ends_early && w < fastest
     }
 
-    /// Raises the barrier to the peak so far.
+    /// Raises the barrier to the peak so far, or at once as high as it may
+    /// stand if the peak is not needed.
     #[inline(always)]
     pub fn see_peak(&mut self) {
         if let Some(barrier) = &mut self.barrier
@@ -121,7 +122,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let peak = self.record.peak;
             let is_beyond = self.dynamics.overturning == Overturning::HalfPi
                 && peak > most;
-            let height = if is_beyond { most } else { peak };
+            let is_low = self.outcome_only && !(peak > most);
+            let height = if is_beyond || is_low { most } else { peak };
             barrier.raise(height, &self.dynamics, &remainder);
         }
     }

@@ -10,7 +10,8 @@ use rocking::excitation::{
 };
 use rocking::ida::{self, Analysis, BracketEnd, Grid};
 use rocking::integrator::{
-    CertifiedFate, Certify, Model, Response, Solver, certify, uplift_threshold,
+    CertifiedFate, Certify, Extent, Model, Response, Solver, certify,
+    uplift_threshold,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking::{Block, Excitation, Observe, Restitution, respond};
@@ -305,7 +306,7 @@ impl LabScene {
     ) -> Answer<FateGrid> {
         let alpha_rad = self.block.block()?.slenderness_rad();
         let motion = self.ground.motion()?;
-        let solver = Solver { peak_only: true, ..Solver::default() };
+        let solver = Solver { extent: Extent::Peak, ..Solver::default() };
         let observe = Observe { accuracy: true, ..Observe::default() };
         let (mut rows, mut peaks) = (Vec::new(), Vec::new());
         let mut bits = Bits::default();

@@ -20,6 +20,7 @@ use rocking::ida::{
     Analysis, Batch, BracketEnd, Grid, IdaCurve, IdaError, REFINEMENT,
     Resurrections, curves,
 };
+use rocking::integrator::Extent;
 use rocking_records::floor::Floor;
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
 use rocking_statistics::{Clusters, Estimate, Interval, Range};
@@ -215,6 +216,19 @@ impl<'a> AssessmentSuite<'a> {
         }
     }
 
+    /// As [`Self::analysis`], for curves of which only the damage is used.
+    pub(super) fn of_damage(
+        &self,
+        object: &Object,
+        restitution: Restitution,
+    ) -> Analysis {
+        let extent = match object.limit_ratio {
+            None => Extent::Outcome,
+            Some(_) => Extent::Peak,
+        };
+        Analysis { extent, ..self.analysis(object, restitution) }
+    }
+
     /// The objects that rock, and those that slide first.
     pub(super) fn parted(
         &self,
@@ -289,7 +303,7 @@ impl<'a> AssessmentSuite<'a> {
         let within = |eta: f64| (low..=high).contains(&eta);
         etas.extend(housner.filter(|own| !within(own.velocity_ratio())));
         let refine = Some(OTHERS);
-        let of = |eta| Analysis { refine, ..self.analysis(object, eta) };
+        let of = |eta| Analysis { refine, ..self.of_damage(object, eta) };
         let mut all: Vec<Analysis> = etas.into_iter().map(of).collect();
         if self.resurrects(object) {
             let resurrections = Some(Resurrections::Multiple(REACH));

@@ -174,7 +174,7 @@ impl AssessmentSuite<'_> {
             // A size of a few cm may round to no block at all.
             let Ok(block) = block(sizes) else { break };
             let other = changed(block);
-            let mut analysis = self.analysis(&other, other.restitution);
+            let mut analysis = self.of_damage(&other, other.restitution);
             if attempt == 0 {
                 analysis.refine = Some(SEARCH);
             }
@@ -216,7 +216,7 @@ impl AssessmentSuite<'_> {
         let floors: Vec<_> = object.floor.iter().chain([&under]).collect();
         let moved = ObjectMotion::new(self.records, &floors)?;
         let other = Object { floor: Some(under.clone()), ..object.clone() };
-        let analysis = self.analysis(&other, other.restitution);
+        let analysis = self.of_damage(&other, other.restitution);
         let (values, shift) = self.of(&other, &moved, &analysis)?;
         let kind = (RemedyKind::Isolation, period_s);
         self.remedy(case, kind, &values, shift)

@@ -10,7 +10,7 @@ use libm::{exp, log};
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, REFINEMENT, curves, demand_at};
-use rocking::integrator::uplift_threshold;
+use rocking::integrator::{Extent, uplift_threshold};
 use rocking_records::intensity::{IntensityMeasure, Measures, Settings};
 
 /// Spacing of the levels, in units of the onset of rocking.
@@ -76,6 +76,7 @@ impl<'a> TestRecords<'a> {
             grid: Grid::Im { step: STEP_IM },
             refine: Some(REFINEMENT),
             model: self.options.model,
+            extent: Extent::Outcome,
             ..Analysis::paper(block, self.options.restitution)
         }
     }

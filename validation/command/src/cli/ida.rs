@@ -13,7 +13,9 @@ use rocking::ida::{
     Adjust, Analysis, BracketEnd, Grid, HIGHEST_IM, IdaCurve, REFINEMENT,
     Resurrections,
 };
-use rocking::integrator::{Model, Order, WorkLimit, uplift_threshold};
+use rocking::integrator::{
+    Extent, Model, Order, WorkLimit, uplift_threshold,
+};
 use rocking_procedures::{
     IdaSummary, PivotForces, StripeResponses, summarise_ida,
 };
@@ -338,6 +340,7 @@ impl IdaCommand {
             resurrections,
             order: self.order,
             certify: self.certify,
+            extent: Extent::Peak,
             work_limit: self.limit.limit(WorkLimit::IDA),
         })
     }

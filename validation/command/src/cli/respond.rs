@@ -211,7 +211,8 @@ fn certified(
     let progress = |by, time_s| {
         *place.lock().unwrap_or_else(PoisonError::into_inner) = (by, time_s);
     };
-    let ask = Certify { until_s, work_limit, progress: &progress };
+    let progress = &progress;
+    let ask = Certify { until_s, work_limit, progress, ..Certify::default() };
     let found = patiently(&words, || certify(scene, &ask));
     let found = found.map_err(refused)?;
     let own = found.outcome.name();

@@ -8,7 +8,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
 use rocking::integrator::{
-    self, Certify, Impact, Observe, Outcome, Scene, Solver, certify,
+    self, Certify, Extent, Impact, Observe, Outcome, Scene, Solver, certify,
     uplift_threshold,
 };
 use rocking::number::Real as _;
@@ -160,7 +160,7 @@ fn at_landing(
 ) -> Result<f64> {
     let observe = Observe { events: true, ..Observe::default() };
     let run = integrator::respond(scene, &observe)?;
-    let solver = Solver { peak_only: true, ..Solver::default() };
+    let solver = Solver { extent: Extent::Peak, ..Solver::default() };
     let quick = solver.respond(scene, &Observe::default())?;
     let block = scene.block;
     let (alpha, p) = (block.slenderness_rad(), block.frequency_rad_s());

@@ -7,7 +7,7 @@ use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
 use rocking::integrator::{
-    BareSteps, Model, Observe, Order, Overturning, Solver, WorkLimit,
+    BareSteps, Extent, Model, Observe, Order, Overturning, Solver, WorkLimit,
 };
 use rocking::number::dispatch::Isa;
 use rocking_statistics::lilliefors::NullDistribution;
@@ -174,7 +174,7 @@ pub fn samples_of(
         })
         .collect();
     let observe = Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
-    let solver = Solver { peak_only: true, ..Solver::default() };
+    let solver = Solver { extent: Extent::Peak, ..Solver::default() };
     let steps: Vec<anyhow::Result<u64>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {

@@ -10,8 +10,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use peak_alloc::PeakAlloc;
-use rocking_common::suites::inputs;
-use rocking_records::{Processing, Profile, ReadOptions, Suite};
+use rocking::accelerogram::Accelerogram;
+use rocking_common::suites::inputs::SuiteInput;
+use rocking_records::{Processing, ReadOptions};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -243,16 +244,17 @@ fn profiles_hold_no_samples() {
     let (read, none) = (ReadOptions::default(), Processing::default());
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
-    let suite: Suite<Profile> =
-        inputs::profiles::<anyhow::Error>(&path, read, &none).unwrap();
+    let (input, suite) =
+        SuiteInput::read::<anyhow::Error>(&path, read, &none, SAMPLES)
+            .unwrap();
     let members: Vec<_> = suite.members().iter().collect();
     let mut seen = 0;
-    inputs::reread::<anyhow::Error>(&path, read, &none, &members, |r, _| {
-        assert_eq!(r.samples_g().len(), SAMPLES);
+    let count = |record: &Accelerogram, _: &_| {
+        assert_eq!(record.samples_g().len(), SAMPLES);
         seen += 1;
-        Ok(())
-    })
-    .unwrap();
+        anyhow::Ok(())
+    };
+    input.each(&members, count).unwrap();
     assert_eq!(seen, RECORDS);
     let used = ALLOCATOR.peak_usage() - before;
     let held = RECORDS * SAMPLES * size_of::<f64>();

@@ -9,11 +9,13 @@ mod cells;
 mod error;
 mod index;
 mod pairing;
+mod reading;
 mod survey;
 
 pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
 pub use index::is_index;
+pub use reading::{OneThread, Reading, Spread};
 pub use survey::Survey;
 
 use crate::error::RecordError;
@@ -98,9 +100,9 @@ impl SuiteMember {
         }
     }
 
-    /// The member without its samples.
-    pub fn into_profile(self) -> SuiteMember<Profile> {
-        SuiteMember {
+    /// The member without its samples, and these.
+    pub fn into_profile(self) -> (SuiteMember<Profile>, Accelerogram) {
+        let member = SuiteMember {
             accelerogram: Profile::of(&self.accelerogram),
             file: self.file,
             format: self.format,
@@ -113,7 +115,8 @@ impl SuiteMember {
             given: self.given,
             line: self.line,
             attributes: self.attributes,
-        }
+        };
+        (member, self.accelerogram)
     }
 }
 
@@ -187,7 +190,8 @@ impl Suite {
         options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        Survey::of_index(path, bytes, options, file_bytes, Ok)
+        let reading = Reading::all(options, OneThread);
+        Survey::of_index(path, bytes, &reading, file_bytes, Ok)
             .and_then(Survey::into_suite)
     }
 

@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::index::{self, Index};
+use super::index::{self, Index, IndexRow};
 use super::pairing;
+use super::reading::{OneThread, Reading, Spread};
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
@@ -45,21 +46,21 @@ impl Survey {
         path: &Path,
         options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
-        Self::visit(path, options, Ok)
+        Self::visit(path, &Reading::all(options, OneThread), Ok)
     }
 }
 
 impl<K> Survey<K> {
     /// Reads every record of the folder or index at `path`, or the record file
-    /// there, one after the other in their order, and keeps the result of
-    /// `keep` for each.
+    /// there, and keeps the result of `keep` for each, in their order.
     ///
     /// ```
     /// use std::path::Path;
-    /// use rocking_records::{ReadOptions, SuiteError, Survey};
+    /// use rocking_records::{OneThread, ReadOptions, Reading, SuiteError, Survey};
     /// let folder = Path::new("no such folder");
+    /// let options = ReadOptions::default();
     /// let mut samples = 0;
-    /// let found = Survey::visit(folder, &ReadOptions::default(), |member| {
+    /// let found = Survey::visit(folder, &Reading::all(&options, OneThread), |member| {
     ///     samples += member.accelerogram.samples_g().len();
     ///     Ok::<(), SuiteError>(())
     /// });
@@ -69,15 +70,16 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if the folder or index itself cannot be read, and
     /// the first error of `keep`.
-    pub fn visit<E: From<SuiteError>>(
+    pub fn visit<S: Spread, T: Send, E: From<SuiteError>>(
         path: &Path,
-        options: &ReadOptions,
-        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let shown = path.display().to_string();
         if path.is_dir() {
             let (mut files, mut others) = Default::default();
-            contents(path, "", options.recursive, &mut files, &mut others)?;
+            let recursive = reading.options.recursive;
+            contents(path, "", recursive, &mut files, &mut others)?;
             others.sort_by(|a, b| a.file.cmp(&b.file));
             let names: Vec<String> = files.keys().cloned().collect();
             let bytes = |name: &str| match files.get(name) {
@@ -85,22 +87,22 @@ impl<K> Survey<K> {
                 None => file_bytes(&path.join(name)),
             };
             let mut survey =
-                Self::of_files(&shown, &names, options, bytes, keep)?;
+                Self::of_files(&shown, &names, reading, bytes, keep)?;
             survey.set_aside.extend(others);
             return Ok(survey);
         }
-        let bytes = file_bytes(path).map_err(SuiteError::from)?;
+        let mut bytes = file_bytes(path).map_err(SuiteError::from)?;
         let base = path.parent().unwrap_or(Path::new(""));
         if !index::is_index(&bytes) && is_record(&bytes) {
             let base = base.display().to_string();
             let names = [name_of(path)];
-            let read = |_: &str| Ok(bytes.clone());
-            let survey = Self::of_files(&base, &names, options, read, keep)?;
+            let read = |_: &str| Ok(std::mem::take(&mut bytes));
+            let survey = Self::of_files(&base, &names, reading, read, keep)?;
             let name = stem(&shown).to_owned();
             return Ok(Self { path: shown, name, ..survey });
         }
         let read = |file: &str| file_bytes(&base.join(file));
-        Self::of_index(&shown, &bytes, options, read, keep)
+        Self::of_index(&shown, &bytes, reading, read, keep)
     }
 
     /// Reads every record among the files of a folder or archive, and keeps
@@ -112,12 +114,12 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if an index cannot be read, and the first error of
     /// `keep`.
-    pub fn of_files<E: From<SuiteError>>(
+    pub fn of_files<S: Spread, T: Send, E: From<SuiteError>>(
         path: &str,
         names: &[String],
-        options: &ReadOptions,
+        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        mut keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
         let (names, doubled): (Vec<&String>, Vec<&String>) =
@@ -131,7 +133,7 @@ impl<K> Survey<K> {
                 listed.insert(name.to_owned());
                 file_bytes(name)
             };
-            survey = Self::of_index(&shown, &bytes, options, read, keep)?;
+            survey = Self::of_index(&shown, &bytes, reading, read, keep)?;
             container(path).clone_into(&mut survey.name);
             for name in names.iter().filter(|name| !listed.contains(**name)) {
                 let shown = format!("{path}/{name}");
@@ -140,25 +142,33 @@ impl<K> Survey<K> {
         } else {
             survey = Self::empty(path, container(path));
             let mut given = FallbackUse::default();
-            for name in names {
+            let read = |name: &&String, bytes: Result<Vec<u8>, _>| {
+                let mut given = FallbackUse::default();
                 let shown = Path::new(path).join(name).display().to_string();
                 let shown = shown.replace(MAIN_SEPARATOR, "/");
-                let records = file_bytes(name)
-                    .and_then(|bytes| settle(&shown, &bytes, options, None));
-                let found = records.unwrap_or_else(|error| {
-                    survey.refuse(name, error);
-                    Vec::new()
-                });
                 let within = name.rsplit_once('/').map(|(within, _)| within);
-                let within = within.filter(|_| options.recursive);
-                for settled in found {
+                let within = within.filter(|_| reading.options.recursive);
+                let one = |settled| {
                     let record = given.see(settled);
-                    match horizontal(&shown, name, within, record) {
+                    let member = horizontal(&shown, name, within, record);
+                    member.map(&reading.work)
+                };
+                let found: Result<Vec<_>, _> = bytes
+                    .and_then(|b| settle(&shown, &b, reading.options, None))
+                    .map(|settled| settled.into_iter().map(one).collect());
+                (given, found.unwrap_or_else(|error| vec![Err(error)]))
+            };
+            let add = |name: &String, (seen, found)| {
+                given.add(seen);
+                for member in found {
+                    match member {
                         Ok(member) => survey.members.push(Ok(keep(member)?)),
                         Err(error) => survey.refuse(name, error),
                     }
                 }
-            }
+                Ok::<(), E>(())
+            };
+            reading.each(names, |name| name, file_bytes, read, add)?;
             survey.members.extend(given.unused());
         }
         for name in doubled {
@@ -188,12 +198,12 @@ impl<K> Survey<K> {
         }
     }
 
-    pub(super) fn of_index<E: From<SuiteError>>(
+    pub(super) fn of_index<S: Spread, T: Send, E: From<SuiteError>>(
         path: &str,
         bytes: &[u8],
-        options: &ReadOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        mut keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let Index { rows, paired, study_rule } = Index::parse(path, bytes)?;
         // PEER's index has the name of its folder.
@@ -202,16 +212,23 @@ impl<K> Survey<K> {
         let empty = Self::empty(path, name.unwrap_or(stem(path)));
         let mut survey = Self { paired, study_rule, ..empty };
         let mut given = FallbackUse::default();
-        for row in rows {
-            let bytes = file_bytes(&row.file).map_err(SuiteError::from);
-            let member = bytes.and_then(|bytes| {
-                row.member(&bytes, options, |settled| given.see(settled))
+        let read = |row: &IndexRow, bytes: Result<Vec<u8>, _>| {
+            let mut given = FallbackUse::default();
+            let member = bytes.map_err(SuiteError::from).and_then(|bytes| {
+                let see = |settled| given.see(settled);
+                row.member(&bytes, reading.options, see)
             });
+            (given, member.map(&reading.work))
+        };
+        let add = |_, (seen, member): (_, Result<T, SuiteError>)| {
+            given.add(seen);
             survey.members.push(match member {
                 Ok(member) => Ok(keep(member)?),
                 Err(error) => Err(error),
             });
-        }
+            Ok::<(), E>(())
+        };
+        reading.each(rows, |row| &*row.file, file_bytes, read, add)?;
         survey.members.extend(given.unused());
         Ok(survey)
     }
@@ -254,11 +271,16 @@ struct FallbackUse {
 impl FallbackUse {
     fn see(&mut self, settled: Agreement) -> Record {
         let Agreement { record, dt, unit } = settled;
-        self.taken.dt |= record.given.dt;
-        self.taken.unit |= record.given.unit;
-        self.dt = self.dt.take().or(dt.err());
-        self.unit = self.unit.take().or(unit.err());
+        self.add(Self { taken: record.given, dt: dt.err(), unit: unit.err() });
         record
+    }
+
+    /// Adds the use in later files.
+    fn add(&mut self, later: Self) {
+        self.taken.dt |= later.taken.dt;
+        self.taken.unit |= later.taken.unit;
+        self.dt = self.dt.take().or(later.dt);
+        self.unit = self.unit.take().or(later.unit);
     }
 
     /// The first contradiction of each value that no file took.

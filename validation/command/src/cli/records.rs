@@ -322,7 +322,7 @@ impl RecordsListing {
     }
 
     fn add_survey(&mut self, path: &Path) -> Result<(), RecordFinding> {
-        let survey = inputs::visit(path, self.options, Ok::<_, SuiteError>)?;
+        let survey = inputs::visit(path, self.options)?;
         self.set_aside.extend(survey.set_aside.all().iter().cloned());
         if survey.members.iter().all(Result::is_ok) {
             self.add_suite(path, &survey.into_suite()?);

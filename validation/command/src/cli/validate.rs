@@ -9,8 +9,8 @@ use rocking_procedures::shaking::{
     ShakingTest, Slenderness, TestOptions, compare_with_tests,
 };
 use rocking_procedures::shaking_table::{FATE_COLUMN, TestTable};
+use rocking_records::RemarkInput;
 use rocking_records::intensity::IntensityMeasure as M;
-use rocking_records::{RemarkInput, SuiteError};
 
 use super::names;
 use super::processing::{RecordArgs, words};
@@ -151,7 +151,7 @@ impl ValidateCommand {
     /// The tests, and the remarks on their motions.
     fn tests(&self) -> Result<(Vec<ShakingTest>, Remarks), Failure> {
         let options = self.input.reading.options(self.gravity);
-        let survey = visit(&self.tests, options, Ok::<_, SuiteError>)?;
+        let survey = visit(&self.tests, options)?;
         let members = survey.members.iter().flatten();
         let remarks = members.map(RemarkInput::from).collect::<Vec<_>>();
         let remarks = Remarks::of(&remarks);

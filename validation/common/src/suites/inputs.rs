@@ -1,16 +1,17 @@
 //! Suites from files and zips, checksums included.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
+use rayon::prelude::*;
 use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
     Fault, MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
-    Suite, SuiteError, SuiteMember, Survey,
+    Reading, Spread, Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 
@@ -32,6 +33,22 @@ const INDEX_PART: u64 = 12;
 /// records of one block and their curves at a time, however large the suite is.
 pub const BLOCK_SAMPLES: usize = 1 << 22;
 
+/// A suite of at most this number of blocks stays in memory as it is read.
+const KEPT_BLOCKS: usize = 3;
+
+/// All threads of the caller's pool.
+struct AllThreads;
+
+impl Spread for AllThreads {
+    fn map<A: Send, B: Send>(
+        &self,
+        items: Vec<A>,
+        work: impl Fn(A) -> B + Sync,
+    ) -> Vec<B> {
+        items.into_par_iter().panic_fuse().map(&work).collect()
+    }
+}
+
 /// Reads the suite at `path`: a folder, an index, or a zip of either.
 ///
 /// # Errors
@@ -40,58 +57,111 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    visit(path, read, Ok).and_then(Survey::into_suite)
+    visit(path, read).and_then(Survey::into_suite)
 }
 
-/// Reads the suite at `path` and keeps the profiles of its records. The samples
-/// stay in their files; [`reread`] reads them.
-///
-/// # Errors
-/// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
-/// processed.
-pub fn profiles<E: From<SuiteError> + From<ProcessingError>>(
-    path: &Path,
-    read: ReadOptions,
-    processing: &Processing,
-) -> Result<Suite<Profile>, E> {
-    let survey = visit(path, read, |mut member| {
-        member.accelerogram = processing.apply(&member.accelerogram)?;
-        Ok::<_, E>(member.into_profile())
-    })?;
-    Ok(survey.into_suite()?)
+/// A suite whose records are worked off one after the other.
+pub struct SuiteInput<'a> {
+    path: &'a Path,
+    options: ReadOptions,
+    processing: &'a Processing,
+    /// The records, if the suite is small. The samples of a larger suite stay
+    /// in their files.
+    kept: Option<BTreeMap<String, Accelerogram>>,
 }
 
-/// Reads the records of `chosen`, members of the suite of [`profiles`], again one
-/// after the other, and passes them to `each`.
-///
-/// # Errors
-/// As [`profiles`]; [`SuiteError::Changed`] for a record that has changed;
-/// the first error of `each`.
-pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
-    path: &Path,
-    read: ReadOptions,
-    processing: &Processing,
-    chosen: &[&SuiteMember<Profile>],
-    mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
-) -> Result<(), E> {
-    let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
-        path: path.display().to_string(),
-        name: expected.accelerogram.name().to_owned(),
-    };
-    let mut left = chosen.iter().peekable();
-    visit(path, read, |SuiteMember { accelerogram: record, .. }| {
-        let is_it = |m: &&&SuiteMember<Profile>| {
-            m.accelerogram.name() == record.name()
+impl<'a> SuiteInput<'a> {
+    /// Reads the suite at `path`, which is worked off in blocks of about
+    /// `block_samples` samples.
+    ///
+    /// # Errors
+    /// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
+    /// processed.
+    pub fn read<E: From<SuiteError> + From<ProcessingError>>(
+        path: &'a Path,
+        options: ReadOptions,
+        processing: &'a Processing,
+        block_samples: usize,
+    ) -> Result<(Self, Suite<Profile>), E> {
+        let most = block_samples.saturating_mul(KEPT_BLOCKS);
+        let (mut kept, mut samples) = (Some(BTreeMap::new()), 0);
+        let input = Self { path, options, processing, kept: None };
+        let survey = input.visit(&|_| true, |(name, found)| {
+            let (member, record): (_, Accelerogram) = found?;
+            samples += record.samples_g().len();
+            kept = kept.take().filter(|_| samples <= most);
+            kept.as_mut().map(|kept| kept.insert(name, record));
+            Ok::<_, E>(member)
+        })?;
+        Ok((Self { kept, ..input }, survey.into_suite()?))
+    }
+
+    /// Passes the records of `chosen`, members of the suite, to `each`, one
+    /// after the other. Their files are read again if the suite is large.
+    ///
+    /// # Errors
+    /// As [`SuiteInput::read`]; [`SuiteError::Changed`] for a record that has
+    /// changed; the first error of `each`.
+    pub fn each<E: From<SuiteError> + From<ProcessingError>>(
+        mut self,
+        chosen: &[&SuiteMember<Profile>],
+        mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
+            path: self.path.display().to_string(),
+            name: expected.accelerogram.name().to_owned(),
         };
-        let Some(expected) = left.next_if(is_it) else { return Ok(()) };
-        let record = processing.apply(&record)?;
-        if Profile::of(&record) != expected.accelerogram {
-            return Err(changed(expected).into());
+        let mut left = chosen.iter().peekable();
+        if let Some(mut kept) = self.kept.take() {
+            while let Some(expected) = left.peek()
+                && let Some(record) = kept.remove(expected.accelerogram.name())
+            {
+                each(&record, expected)?;
+                left.next();
+            }
+        } else {
+            let files: BTreeSet<&str> =
+                chosen.iter().map(|member| &*member.file).collect();
+            let is_chosen = |file: &str| files.contains(file);
+            self.visit(&is_chosen, |(name, found)| {
+                let is_it =
+                    |m: &&&SuiteMember<Profile>| m.accelerogram.name() == name;
+                let Some(expected) = left.next_if(is_it) else {
+                    return Ok(());
+                };
+                let (member, record) = found?;
+                if member.accelerogram != expected.accelerogram {
+                    return Err(changed(expected).into());
+                }
+                each(&record, expected)
+            })?;
         }
-        each(&record, expected)
-    })?;
-    left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
+        left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
+    }
+
+    /// Reads and processes the records of the `chosen` files, and keeps the
+    /// result of `keep` for the name of each and for the record.
+    fn visit<K, E: From<SuiteError>>(
+        &self,
+        chosen: &(dyn Fn(&str) -> bool + Sync),
+        keep: impl FnMut((String, Processed)) -> Result<K, E>,
+    ) -> Result<Survey<K>, E> {
+        let work = |mut member: SuiteMember| {
+            let name = member.accelerogram.name().to_owned();
+            let processed = self.processing.apply(&member.accelerogram);
+            let processed = processed.map(|record| {
+                member.accelerogram = record;
+                member.into_profile()
+            });
+            (name, processed)
+        };
+        let (options, spread) = (&self.options, AllThreads);
+        survey(self.path, &Reading { options, chosen, spread, work }, keep)
+    }
 }
+
+/// A record after its processing: its member of the suite, and its samples.
+type Processed = Result<(SuiteMember<Profile>, Accelerogram), ProcessingError>;
 
 /// The files of the suite that was read from `path`.
 pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
@@ -103,22 +173,28 @@ pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     std::iter::once(path.to_owned()).chain(members).collect()
 }
 
-/// Reads every record of the folder, index or zip at `path`, checksums included,
-/// and keeps the result of `keep` for each.
+/// Reads every record of the folder, index or zip at `path`, checksums included.
 ///
 /// # Errors
 /// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
-pub fn visit<K, E: From<SuiteError>>(
+pub fn visit(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
+    let reading = Reading::all(&read, AllThreads);
+    survey(path, &reading, Ok)
+}
+
+/// Reads the records of the folder, index or zip at `path`, checksums included,
+/// and keeps the result of `keep` for each.
+fn survey<T: Send, K, E: From<SuiteError>>(
     path: &Path,
-    read: ReadOptions,
-    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    reading: &Reading<'_, AllThreads, impl Fn(SuiteMember) -> T + Sync>,
+    keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     if path.is_dir() || !is_zip(path) {
-        return Survey::visit(path, &read, keep);
+        return Survey::visit(path, reading, keep);
     }
     let shown = path.display().to_string();
     let file = File::open(path).map_err(unreadable(&shown))?;
-    visit_zip(&shown, file, &read, keep)
+    survey_zip(&shown, file, reading, keep)
 }
 
 /// The error for a reason why the suite at `shown` cannot be read.
@@ -139,11 +215,21 @@ fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
 ///
 /// # Errors
 /// As [`visit`].
-pub fn visit_zip<K, E: From<SuiteError>>(
+pub fn visit_zip(
+    shown: &str,
+    archive: impl Read + Seek,
+    options: &ReadOptions,
+) -> Result<Survey, SuiteError> {
+    let reading = Reading::all(options, AllThreads);
+    survey_zip(shown, archive, &reading, Ok)
+}
+
+/// As [`visit_zip`], with the result of `keep` for each record.
+fn survey_zip<T: Send, K, E: From<SuiteError>>(
     shown: &str,
     mut archive: impl Read + Seek,
-    options: &ReadOptions,
-    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    reading: &Reading<'_, AllThreads, impl Fn(SuiteMember) -> T + Sync>,
+    keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
@@ -165,7 +251,7 @@ pub fn visit_zip<K, E: From<SuiteError>>(
             Fault::Unreadable(reason).whole(&format!("{shown}/{name}"))
         })
     };
-    Survey::of_files(shown, &names, options, unpacked, keep)
+    Survey::of_files(shown, &names, reading, unpacked, keep)
 }
 
 /// An archive of `size` bytes, and the names of its files.
@@ -338,8 +424,7 @@ mod tests {
         let read =
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let visit = |bytes: &[u8]| {
-            let keep = Ok::<_, SuiteError>;
-            let found = visit_zip("x.zip", Cursor::new(bytes), &read, keep);
+            let found = visit_zip("x.zip", Cursor::new(bytes), &read);
             found.map(|_| ()).map_err(|error| error.to_string())
         };
         assert_eq!(visit(&bytes), Ok(()));
@@ -366,12 +451,21 @@ mod tests {
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let none = Processing::default();
         let path = place.path();
-        let suite = profiles::<anyhow::Error>(path, read, &none).unwrap();
+        let open = |block_samples| {
+            SuiteInput::read::<anyhow::Error>(path, read, &none, block_samples)
+        };
+        let suite = open(0).unwrap().1;
         let members: Vec<_> = suite.members().iter().collect();
         let again = || {
             let mut names = Vec::new();
+            let large = SuiteInput {
+                path,
+                options: read,
+                processing: &none,
+                kept: None,
+            };
             let done: anyhow::Result<()> =
-                reread(path, read, &none, &members, |record, member| {
+                large.each(&members, |record, member| {
                     assert_eq!(member.file, format!("{}.txt", record.name()));
                     names.push(record.name().to_owned());
                     Ok(())

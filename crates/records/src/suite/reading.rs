@@ -1,0 +1,90 @@
+//! Reading many files: their bytes in order, their records on any threads.
+
+use std::convert::identity;
+
+use super::SuiteMember;
+use crate::error::RecordError;
+use crate::record::ReadOptions;
+
+/// Bytes of the files that are in memory at a time, without the last file.
+const CHUNK: usize = 4 << 20;
+
+/// What a file counts at least.
+const LEAST: usize = 4 << 10;
+
+/// Distribution of work over threads.
+pub trait Spread: Sync {
+    /// The results of `work` on all items, in the order of the items.
+    fn map<A: Send, B: Send>(
+        &self,
+        items: Vec<A>,
+        work: impl Fn(A) -> B + Sync,
+    ) -> Vec<B>;
+}
+
+/// All work on the thread of the caller.
+#[derive(Clone, Copy, Debug)]
+pub struct OneThread;
+
+impl Spread for OneThread {
+    fn map<A: Send, B: Send>(
+        &self,
+        items: Vec<A>,
+        work: impl Fn(A) -> B + Sync,
+    ) -> Vec<B> {
+        items.into_iter().map(work).collect()
+    }
+}
+
+/// How the records of a suite are read.
+pub struct Reading<'a, S, W> {
+    /// Values of the caller.
+    pub options: &'a ReadOptions,
+    /// Whether the file of a name is read.
+    pub chosen: &'a (dyn Fn(&str) -> bool + Sync),
+    /// Distribution of the files over threads.
+    pub spread: S,
+    /// Work on each record, in any order.
+    pub work: W,
+}
+
+impl<'a, S> Reading<'a, S, fn(SuiteMember) -> SuiteMember> {
+    /// Reads all files, without further work.
+    pub fn all(options: &'a ReadOptions, spread: S) -> Self {
+        Self { options, chosen: &|_| true, spread, work: identity }
+    }
+}
+
+impl<S: Spread, W> Reading<'_, S, W> {
+    /// Passes the bytes of each chosen file to `read`, on any thread, and each
+    /// result to `add`, in the order of the files.
+    pub(super) fn each<F: Send, R: Send, E>(
+        &self,
+        files: impl IntoIterator<Item = F>,
+        name: impl Fn(&F) -> &str,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        read: impl Fn(&F, Result<Vec<u8>, RecordError>) -> R + Sync,
+        mut add: impl FnMut(F, R) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let chosen = |file: &F| (self.chosen)(name(file));
+        let mut files = files.into_iter().filter(chosen).peekable();
+        while files.peek().is_some() {
+            let (mut chunk, mut size) = (Vec::new(), 0);
+            while size < CHUNK
+                && let Some(file) = files.next()
+            {
+                let bytes = file_bytes(name(&file));
+                size += LEAST + bytes.as_ref().map_or(0, Vec::len);
+                chunk.push((file, bytes));
+            }
+            let read = |(file, bytes): (F, _)| {
+                let found = read(&file, bytes);
+                (file, found)
+            };
+            for (file, found) in self.spread.map(chunk, read) {
+                add(file, found)?;
+            }
+        }
+        Ok(())
+    }
+}

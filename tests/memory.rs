@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use peak_alloc::PeakAlloc;
-use rocking::accelerogram::Accelerogram;
+use rocking::stop::Stop;
 use rocking_common::suites::inputs::SuiteInput;
 use rocking_records::{Processing, ReadOptions};
 use zip::write::SimpleFileOptions;
@@ -232,7 +232,7 @@ fn a_packed_megabyte_takes_no_more_either() {
 
 /// The samples of a suite that is worked off in blocks stay in their files.
 fn profiles_hold_no_samples() {
-    const RECORDS: usize = 40;
+    const RECORDS: usize = 80;
     const SAMPLES: usize = 100_000;
     let place = tempfile::tempdir().unwrap();
     let text = dense(2 * SAMPLES).swap_remove(0).1;
@@ -244,18 +244,20 @@ fn profiles_hold_no_samples() {
     let (read, none) = (ReadOptions::default(), Processing::default());
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
-    let (input, suite) =
-        SuiteInput::read::<anyhow::Error>(&path, read, &none, SAMPLES)
-            .unwrap();
-    let members: Vec<_> = suite.members().iter().collect();
-    let mut seen = 0;
-    let count = |record: &Accelerogram, _: &_| {
-        assert_eq!(record.samples_g().len(), SAMPLES);
-        seen += 1;
-        anyhow::Ok(())
+    let work = || {
+        let mut seen = 0;
+        let found = SuiteInput::read(&path, read, &none, SAMPLES);
+        let (input, suite) = found.map_err(|error: anyhow::Error| error)?;
+        let members: Vec<_> = suite.members().iter().collect();
+        input.each(&members, |record, _| {
+            assert_eq!(record.samples_g().len(), SAMPLES);
+            seen += 1;
+            anyhow::Ok(())
+        })?;
+        anyhow::Ok(seen)
     };
-    input.each(&members, count).unwrap();
-    assert_eq!(seen, RECORDS);
+    // More threads read more files at a time.
+    assert_eq!(Stop::default().run(2, work).unwrap().unwrap(), RECORDS);
     let used = ALLOCATOR.peak_usage() - before;
     let held = RECORDS * SAMPLES * size_of::<f64>();
     println!("a suite in blocks: {} MiB", used as f64 / MIB as f64);

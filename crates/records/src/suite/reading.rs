@@ -6,14 +6,19 @@ use super::SuiteMember;
 use crate::error::RecordError;
 use crate::record::ReadOptions;
 
-/// Bytes of the files that are in memory at a time, without the last file.
-const CHUNK: usize = 4 << 20;
+/// Bytes of the files that are in memory at a time, for each thread.
+const CHUNK: usize = 1 << 19;
 
-/// What a file counts at least.
-const LEAST: usize = 4 << 10;
+/// More threads do not take more memory.
+const MOST_THREADS: usize = 32;
+
+/// Bytes that a file takes at least.
+const LEAST: usize = 1 << 12;
 
 /// Distribution of work over threads.
 pub trait Spread: Sync {
+    /// Number of the threads.
+    fn threads(&self) -> usize;
     /// The results of `work` on all items, in the order of the items.
     fn map<A: Send, B: Send>(
         &self,
@@ -27,6 +32,10 @@ pub trait Spread: Sync {
 pub struct OneThread;
 
 impl Spread for OneThread {
+    fn threads(&self) -> usize {
+        1
+    }
+
     fn map<A: Send, B: Send>(
         &self,
         items: Vec<A>,
@@ -66,11 +75,12 @@ impl<S: Spread, W> Reading<'_, S, W> {
         read: impl Fn(&F, Result<Vec<u8>, RecordError>) -> R + Sync,
         mut add: impl FnMut(F, R) -> Result<(), E>,
     ) -> Result<(), E> {
+        let most = CHUNK * self.spread.threads().min(MOST_THREADS);
         let chosen = |file: &F| (self.chosen)(name(file));
         let mut files = files.into_iter().filter(chosen).peekable();
         while files.peek().is_some() {
             let (mut chunk, mut size) = (Vec::new(), 0);
-            while size < CHUNK
+            while size < most
                 && let Some(file) = files.next()
             {
                 let bytes = file_bytes(name(&file));

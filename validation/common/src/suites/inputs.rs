@@ -40,6 +40,10 @@ const KEPT_BLOCKS: usize = 3;
 struct AllThreads;
 
 impl Spread for AllThreads {
+    fn threads(&self) -> usize {
+        rayon::current_num_threads()
+    }
+
     fn map<A: Send, B: Send>(
         &self,
         items: Vec<A>,

@@ -16,8 +16,8 @@ use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking_proof::cases;
 use rocking_records::intensity::Intensity;
 use rocking_records::{
-    Format, Header, ReadOptions, Record, RecordError, Suite, SuiteMember,
-    read_all, read_as,
+    Format, Header, ReadOptions, Reading, Record, RecordError, Suite,
+    SuiteError, SuiteMember, read_all, read_as,
 };
 use rocking_score::Answers;
 use rocking_statistics::Lognormal;
@@ -108,7 +108,12 @@ fn index(bytes: &[u8]) -> Result<(), String> {
 
 fn zip(bytes: &[u8]) -> Result<(), String> {
     let archive = Cursor::new(bytes);
-    let survey = inputs::visit_zip("x.zip", archive, &ReadOptions::default());
+    let survey = inputs::visit_zip(
+        "x.zip",
+        archive,
+        &Reading::all(&ReadOptions::default(), inputs::AllThreads),
+        Ok::<_, SuiteError>,
+    );
     let survey = survey.map_err(|error| error.to_string())?;
     let suite = survey.into_suite().map_err(|error| error.to_string())?;
     hold_suite(suite)

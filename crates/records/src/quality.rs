@@ -3,6 +3,7 @@
 //! A remark changes nothing: samples stay as they are.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use thiserror::Error;
@@ -288,34 +289,59 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// on each side and, if these are alike, up to 512. Scale, sign and mean do
 /// not matter.
 fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
-    let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
+    // Equal motions are compared once, whatever their number.
+    let motion = |i: &usize| {
+        (records[*i].dt_s, records[*i].before, &records[*i].about_peak)
+    };
+    let order = |i: &usize, j: &usize| {
+        motion(i).partial_cmp(&motion(j)).unwrap_or(Ordering::Equal)
+    };
+    let mut sorted: Vec<usize> = (0..records.len()).collect();
+    sorted.sort_by(order);
+    let mut groups: Vec<&[usize]> =
+        sorted.chunk_by(|i, j| order(i, j).is_eq()).collect();
+    groups.sort_unstable();
+    let one: Vec<_> = groups.iter().map(|group| records[group[0]]).collect();
+    let near: Vec<_> = one.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {
-        let (first, second) = (records[i], records[j]);
-        if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
+        if one[i].dt_s != one[j].dt_s || differ(&near[i], &near[j]) {
             return None;
         }
-        let correlation = correlation(first, second);
+        let correlation = correlation(one[i], one[j]);
         (correlation > SAME_RECORDING).then_some(correlation)
     };
-    let mut found = vec![None; records.len()];
-    let mut note = |of: usize, by: usize, correlation| {
+    let note = |noted: &mut Option<_>, by: usize, correlation, others| {
         let (first, with_first, count) =
-            found[of].get_or_insert((by, correlation, 0));
-        *count += 1;
+            noted.get_or_insert((by, correlation, 0));
+        *count += others;
         if by < *first {
             (*first, *with_first) = (by, correlation);
         }
     };
-    // A few records against all later ones, so that these are read once.
-    for from in (0..records.len()).step_by(TILE) {
-        let to = records.len().min(from + TILE);
-        for j in from + 1..records.len() {
+    let mut of_groups = vec![None; groups.len()];
+    // A few motions against all later ones, so that these are read once.
+    for from in (0..groups.len()).step_by(TILE) {
+        let to = groups.len().min(from + TILE);
+        for j in from + 1..groups.len() {
             stop::point();
             for i in from..to.min(j) {
                 if let Some(correlation) = alike(i, j) {
-                    note(i, j, correlation);
-                    note(j, i, correlation);
+                    for (of, by) in [(i, groups[j]), (j, groups[i])] {
+                        let noted = &mut of_groups[of];
+                        note(noted, by[0], correlation, by.len());
+                    }
                 }
+            }
+        }
+    }
+    let mut found = vec![None; records.len()];
+    for (k, &group) in groups.iter().enumerate() {
+        let itself = (group.len() > 1).then(|| alike(k, k)).flatten();
+        for &i in group {
+            found[i] = of_groups[k];
+            if let Some(correlation) = itself {
+                let first = group[usize::from(i == group[0])];
+                note(&mut found[i], first, correlation, group.len() - 1);
             }
         }
     }

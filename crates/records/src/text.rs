@@ -10,7 +10,7 @@ use rocking::units::AccelerationUnit;
 /// Lines of one file. Faults are built here, so that each has its place.
 pub(super) struct Text<'a> {
     pub(super) file: &'a str,
-    text: &'a str,
+    pub(super) text: &'a str,
     /// Byte offset at which each line begins, and the end of the last line.
     /// A `&str` per line would cost 16 bytes for lines as short as 2.
     starts: Vec<u32>,
@@ -55,7 +55,7 @@ pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>> {
 }
 
 /// Whether `is` is true for any byte; in blocks, which are fast.
-fn any(bytes: &[u8], is: impl Fn(u8) -> bool) -> bool {
+pub(super) fn any(bytes: &[u8], is: impl Fn(u8) -> bool) -> bool {
     let in_block =
         |block: &[u8]| block.iter().fold(false, |any, b| any | is(*b));
     bytes.chunks(BLOCK).any(in_block)
@@ -166,11 +166,6 @@ impl<'a> Text<'a> {
         let mark = |b: &u8| !matches!(b, b'\r' | b'\n');
         let last = line.as_bytes().iter().rposition(mark);
         Some(&line[..last.map_or(0, |last| last + 1)])
-    }
-
-    /// Whether `is` is true for any byte.
-    pub fn any(&self, is: impl Fn(u8) -> bool) -> bool {
-        any(self.text.as_bytes(), is)
     }
 
     /// Lines that do not begin with `#`, and their indices.

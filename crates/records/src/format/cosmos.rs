@@ -40,7 +40,9 @@ pub(super) static FORMAT: Format = Format {
     files: "COSMOS and CSMIP V1 and V2",
     source: "United States",
     azimuths: true,
-    recognises: |text| text.any(is_s) && text.lines().any(announces),
+    recognises: |text| {
+        text::any(text.text.as_bytes(), is_s) && text.lines().any(announces)
+    },
     read,
     ..Format::BASE
 };

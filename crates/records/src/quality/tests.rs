@@ -87,6 +87,20 @@ fn a_recording_is_known_again_by_its_shape() {
     assert_eq!(others, [(0, 37, 1), (1, 35, 1), (35, 1, 1), (37, 0, 1)]);
 }
 
+/// Equal records are compared once, and count each.
+#[test]
+fn copies_count_beside_what_is_only_similar() {
+    let record = |samples| Accelerogram::try_new("x", 0.01, samples).unwrap();
+    let near = clean().iter().map(|a| a + 1e-5).collect();
+    let other = clean().iter().rev().map(|a| a.abs()).collect();
+    let [a, b, c] = [clean(), near, other].map(|s| Profile::of(&record(s)));
+    let found = duplicates(&[&b, &a, &c, &a, &b, &a]);
+    let counts = found.iter().map(|of| of.map(|(first, _, n)| (first, n)));
+    let expected = [Some((1, 4)), Some((0, 4)), None];
+    let later = [Some((0, 4)); 3];
+    assert_eq!(counts.collect::<Vec<_>>(), [expected, later].concat());
+}
+
 /// The same numbers at another interval are another motion.
 #[test]
 fn records_of_different_intervals_are_not_one_recording() {

@@ -15,27 +15,13 @@ const MOST_THREADS: usize = 32;
 /// Bytes that a file takes at least.
 const LEAST: usize = 1 << 12;
 
-/// Distribution of work over threads.
+/// Distribution of work over threads; by default the caller's thread does all.
 pub trait Spread: Sync {
     /// Number of the threads.
-    fn threads(&self) -> usize;
-    /// The results of `work` on all items, in the order of the items.
-    fn map<A: Send, B: Send>(
-        &self,
-        items: Vec<A>,
-        work: impl Fn(A) -> B + Sync,
-    ) -> Vec<B>;
-}
-
-/// All work on the thread of the caller.
-#[derive(Clone, Copy, Debug)]
-pub struct OneThread;
-
-impl Spread for OneThread {
     fn threads(&self) -> usize {
         1
     }
-
+    /// The results of `work` on all items, in the order of the items.
     fn map<A: Send, B: Send>(
         &self,
         items: Vec<A>,
@@ -44,6 +30,12 @@ impl Spread for OneThread {
         items.into_iter().map(work).collect()
     }
 }
+
+/// All work on the thread of the caller.
+#[derive(Clone, Copy, Debug)]
+pub struct OneThread;
+
+impl Spread for OneThread {}
 
 /// How the records of a suite are read.
 pub struct Reading<'a, S, W> {
@@ -87,11 +79,8 @@ impl<S: Spread, W> Reading<'_, S, W> {
                 size += LEAST + bytes.as_ref().map_or(0, Vec::len);
                 chunk.push((file, bytes));
             }
-            let read = |(file, bytes): (F, _)| {
-                let found = read(&file, bytes);
-                (file, found)
-            };
-            for (file, found) in self.spread.map(chunk, read) {
+            let read = |(file, bytes)| (read(&file, bytes), file);
+            for (found, file) in self.spread.map(chunk, read) {
                 add(file, found)?;
             }
         }

@@ -37,7 +37,7 @@ pub const BLOCK_SAMPLES: usize = 1 << 22;
 const KEPT_BLOCKS: usize = 3;
 
 /// All threads of the caller's pool.
-struct AllThreads;
+pub struct AllThreads;
 
 impl Spread for AllThreads {
     fn threads(&self) -> usize {
@@ -61,7 +61,8 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    visit(path, read).and_then(Survey::into_suite)
+    visit(path, &Reading::all(&read, AllThreads), Ok)
+        .and_then(Survey::into_suite)
 }
 
 /// A suite whose records are worked off one after the other.
@@ -90,11 +91,12 @@ impl<'a> SuiteInput<'a> {
         let most = block_samples.saturating_mul(KEPT_BLOCKS);
         let (mut kept, mut samples) = (Some(BTreeMap::new()), 0);
         let input = Self { path, options, processing, kept: None };
-        let survey = input.visit(&|_| true, |(name, found)| {
-            let (member, record): (_, Accelerogram) = found?;
+        let survey = input.visit(&|_| true, |member, record| {
             samples += record.samples_g().len();
             kept = kept.take().filter(|_| samples <= most);
-            kept.as_mut().map(|kept| kept.insert(name, record));
+            if let Some(kept) = &mut kept {
+                kept.insert(record.name().to_owned(), record);
+            }
             Ok::<_, E>(member)
         })?;
         Ok((Self { kept, ..input }, survey.into_suite()?))
@@ -126,15 +128,14 @@ impl<'a> SuiteInput<'a> {
         } else {
             let files: BTreeSet<&str> =
                 chosen.iter().map(|member| &*member.file).collect();
-            let is_chosen = |file: &str| files.contains(file);
-            self.visit(&is_chosen, |(name, found)| {
-                let is_it =
-                    |m: &&&SuiteMember<Profile>| m.accelerogram.name() == name;
-                let Some(expected) = left.next_if(is_it) else {
+            self.visit(&|file| files.contains(file), |member, record| {
+                let found = member.accelerogram;
+                let Some(expected) =
+                    left.next_if(|m| m.accelerogram.name() == found.name())
+                else {
                     return Ok(());
                 };
-                let (member, record) = found?;
-                if member.accelerogram != expected.accelerogram {
+                if found != expected.accelerogram {
                     return Err(changed(expected).into());
                 }
                 each(&record, expected)
@@ -144,28 +145,27 @@ impl<'a> SuiteInput<'a> {
     }
 
     /// Reads and processes the records of the `chosen` files, and keeps the
-    /// result of `keep` for the name of each and for the record.
-    fn visit<K, E: From<SuiteError>>(
+    /// result of `keep` for each.
+    fn visit<K, E: From<SuiteError> + From<ProcessingError>>(
         &self,
         chosen: &(dyn Fn(&str) -> bool + Sync),
-        keep: impl FnMut((String, Processed)) -> Result<K, E>,
+        mut keep: impl FnMut(SuiteMember<Profile>, Accelerogram) -> Result<K, E>,
     ) -> Result<Survey<K>, E> {
         let work = |mut member: SuiteMember| {
-            let name = member.accelerogram.name().to_owned();
-            let processed = self.processing.apply(&member.accelerogram);
-            let processed = processed.map(|record| {
+            let record = self.processing.apply(&member.accelerogram);
+            record.map(|record| {
                 member.accelerogram = record;
                 member.into_profile()
-            });
-            (name, processed)
+            })
         };
         let (options, spread) = (&self.options, AllThreads);
-        survey(self.path, &Reading { options, chosen, spread, work }, keep)
+        let reading = Reading { options, chosen, spread, work };
+        visit(self.path, &reading, |found| {
+            let (member, record) = found?;
+            keep(member, record)
+        })
     }
 }
-
-/// A record after its processing: its member of the suite, and its samples.
-type Processed = Result<(SuiteMember<Profile>, Accelerogram), ProcessingError>;
 
 /// The files of the suite that was read from `path`.
 pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
@@ -177,20 +177,14 @@ pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     std::iter::once(path.to_owned()).chain(members).collect()
 }
 
-/// Reads every record of the folder, index or zip at `path`, checksums included.
+/// Reads the records of the folder, index or zip at `path`, checksums included,
+/// and keeps the result of `keep` for each.
 ///
 /// # Errors
 /// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
-pub fn visit(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
-    let reading = Reading::all(&read, AllThreads);
-    survey(path, &reading, Ok)
-}
-
-/// Reads the records of the folder, index or zip at `path`, checksums included,
-/// and keeps the result of `keep` for each.
-fn survey<T: Send, K, E: From<SuiteError>>(
+pub fn visit<S: Spread, T: Send, K, E: From<SuiteError>>(
     path: &Path,
-    reading: &Reading<'_, AllThreads, impl Fn(SuiteMember) -> T + Sync>,
+    reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
     keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     if path.is_dir() || !is_zip(path) {
@@ -198,7 +192,7 @@ fn survey<T: Send, K, E: From<SuiteError>>(
     }
     let shown = path.display().to_string();
     let file = File::open(path).map_err(unreadable(&shown))?;
-    survey_zip(&shown, file, reading, keep)
+    visit_zip(&shown, file, reading, keep)
 }
 
 /// The error for a reason why the suite at `shown` cannot be read.
@@ -219,20 +213,10 @@ fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
 ///
 /// # Errors
 /// As [`visit`].
-pub fn visit_zip(
-    shown: &str,
-    archive: impl Read + Seek,
-    options: &ReadOptions,
-) -> Result<Survey, SuiteError> {
-    let reading = Reading::all(options, AllThreads);
-    survey_zip(shown, archive, &reading, Ok)
-}
-
-/// As [`visit_zip`], with the result of `keep` for each record.
-fn survey_zip<T: Send, K, E: From<SuiteError>>(
+pub fn visit_zip<S: Spread, T: Send, K, E: From<SuiteError>>(
     shown: &str,
     mut archive: impl Read + Seek,
-    reading: &Reading<'_, AllThreads, impl Fn(SuiteMember) -> T + Sync>,
+    reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
     keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
@@ -428,7 +412,9 @@ mod tests {
         let read =
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let visit = |bytes: &[u8]| {
-            let found = visit_zip("x.zip", Cursor::new(bytes), &read);
+            let read = Reading::all(&read, AllThreads);
+            let keep = Ok::<_, SuiteError>;
+            let found = visit_zip("x.zip", Cursor::new(bytes), &read, keep);
             found.map(|_| ()).map_err(|error| error.to_string())
         };
         assert_eq!(visit(&bytes), Ok(()));

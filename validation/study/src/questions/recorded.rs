@@ -7,7 +7,7 @@ use rocking::block::Block;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking_records::intensity::{Measures, Settings};
-use rocking_records::{Processing, ReadOptions, Suite};
+use rocking_records::{Processing, ReadOptions, Reading, Suite, SuiteError};
 
 use super::answer::{Rows, StudyAnswer, number, word};
 use crate::results::StudyResults;
@@ -27,7 +27,12 @@ const ALPHA_RAD: f64 = 0.2;
 pub fn ridgecrest() -> anyhow::Result<Suite> {
     let options = ReadOptions::default();
     let archive = Cursor::new(rocking_fixtures::RIDGECREST);
-    let survey = inputs::visit_zip("ridgecrest.zip", archive, &options)?;
+    let survey = inputs::visit_zip(
+        "ridgecrest.zip",
+        archive,
+        &Reading::all(&options, inputs::AllThreads),
+        Ok::<_, SuiteError>,
+    )?;
     Ok(survey.into_suite()?)
 }
 

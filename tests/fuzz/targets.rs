@@ -111,7 +111,7 @@ fn zip(bytes: &[u8]) -> Result<(), String> {
     let survey = inputs::visit_zip(
         "x.zip",
         archive,
-        &Reading::all(&ReadOptions::default(), inputs::AllThreads),
+        &Reading::all(&ReadOptions::default()),
         Ok::<_, SuiteError>,
     );
     let survey = survey.map_err(|error| error.to_string())?;

@@ -289,7 +289,6 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// on each side and, if these are alike, up to 512. Scale, sign and mean do
 /// not matter.
 fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
-    // Equal motions are compared once, whatever their number.
     let motion = |i: &usize| {
         (records[*i].dt_s, records[*i].before, &records[*i].about_peak)
     };
@@ -298,9 +297,9 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     };
     let mut sorted: Vec<usize> = (0..records.len()).collect();
     sorted.sort_by(order);
-    let mut groups: Vec<&[usize]> =
+    // Equal motions are compared once, whatever their number.
+    let groups: Vec<&[usize]> =
         sorted.chunk_by(|i, j| order(i, j).is_eq()).collect();
-    groups.sort_unstable();
     let one: Vec<_> = groups.iter().map(|group| records[group[0]]).collect();
     let near: Vec<_> = one.iter().map(|r| r.near_peak()).collect();
     let alike = |i: usize, j: usize| {
@@ -310,38 +309,34 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
         let correlation = correlation(one[i], one[j]);
         (correlation > SAME_RECORDING).then_some(correlation)
     };
-    let note = |noted: &mut Option<_>, by: usize, correlation, others| {
-        let (first, with_first, count) =
-            noted.get_or_insert((by, correlation, 0));
-        *count += others;
-        if by < *first {
-            (*first, *with_first) = (by, correlation);
+    let mut found = vec![None; records.len()];
+    let mut note = |of: &[usize], by: &[usize], correlation| {
+        for &i in of {
+            let others = by.len() - usize::from(by.binary_search(&i).is_ok());
+            let other = by[usize::from(by[0] == i)];
+            let (first, with_first, count) =
+                found[i].get_or_insert((other, correlation, 0));
+            *count += others;
+            if other < *first {
+                (*first, *with_first) = (other, correlation);
+            }
         }
     };
-    let mut of_groups = vec![None; groups.len()];
     // A few motions against all later ones, so that these are read once.
     for from in (0..groups.len()).step_by(TILE) {
         let to = groups.len().min(from + TILE);
-        for j in from + 1..groups.len() {
+        for j in from..groups.len() {
             stop::point();
-            for i in from..to.min(j) {
-                if let Some(correlation) = alike(i, j) {
-                    for (of, by) in [(i, groups[j]), (j, groups[i])] {
-                        let noted = &mut of_groups[of];
-                        note(noted, by[0], correlation, by.len());
+            for i in from..to.min(j + 1) {
+                let pair = i != j;
+                if (pair || groups[i].len() > 1)
+                    && let Some(correlation) = alike(i, j)
+                {
+                    note(groups[i], groups[j], correlation);
+                    if pair {
+                        note(groups[j], groups[i], correlation);
                     }
                 }
-            }
-        }
-    }
-    let mut found = vec![None; records.len()];
-    for (k, &group) in groups.iter().enumerate() {
-        let itself = (group.len() > 1).then(|| alike(k, k)).flatten();
-        for &i in group {
-            found[i] = of_groups[k];
-            if let Some(correlation) = itself {
-                let first = group[usize::from(i == group[0])];
-                note(&mut found[i], first, correlation, group.len() - 1);
             }
         }
     }

@@ -9,14 +9,12 @@ mod cells;
 mod error;
 mod index;
 mod pairing;
-mod reading;
 mod survey;
 
 pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
 pub use index::is_index;
-pub use reading::{OneThread, Reading, Spread};
-pub use survey::Survey;
+pub use survey::{Reading, Survey};
 
 use crate::error::RecordError;
 use crate::format::Format;
@@ -190,8 +188,7 @@ impl Suite {
         options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        let reading = Reading::all(options, OneThread);
-        Survey::of_index(path, bytes, &reading, file_bytes, Ok)
+        Survey::of_index(path, bytes, &Reading::all(options), file_bytes, Ok)
             .and_then(Survey::into_suite)
     }
 

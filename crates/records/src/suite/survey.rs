@@ -1,11 +1,13 @@
 //! Reading every record that a folder or an index lists.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::convert::identity;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+
+use rayon::prelude::*;
 
 use super::index::{self, Index, IndexRow};
 use super::pairing;
-use super::reading::{OneThread, Reading, Spread};
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use crate::direction::Direction;
 use crate::error::{Fault, RecordError};
@@ -16,6 +18,32 @@ use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.
 const PEER_RESULTS: &str = "_SearchResults.csv";
+
+/// Bytes of the files that are in memory at a time, for each thread.
+const CHUNK: usize = 1 << 19;
+
+/// How the records of a suite are read: on all threads of the caller's pool.
+pub struct Reading<'a, W = fn(SuiteMember) -> SuiteMember> {
+    /// Values of the caller.
+    pub options: &'a ReadOptions,
+    /// Whether the file of a name is read.
+    pub chosen: &'a (dyn Fn(&str) -> bool + Sync),
+    /// Work on each record, in any order.
+    pub work: W,
+}
+
+impl<'a> Reading<'a> {
+    /// Reads all files, without further work.
+    pub fn all(options: &'a ReadOptions) -> Self {
+        Self { options, chosen: &|_| true, work: identity }
+    }
+}
+
+/// The contents of a file.
+type Bytes = Result<Vec<u8>, RecordError>;
+
+/// A file that is set aside, or a fault of the suite.
+type Refused = Result<Aside, SuiteError>;
 
 /// The contents of a folder or an index, refused records included.
 ///
@@ -46,7 +74,7 @@ impl Survey {
         path: &Path,
         options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
-        Self::visit(path, &Reading::all(options, OneThread), Ok)
+        Self::visit(path, &Reading::all(options), Ok)
     }
 }
 
@@ -56,11 +84,11 @@ impl<K> Survey<K> {
     ///
     /// ```
     /// use std::path::Path;
-    /// use rocking_records::{OneThread, ReadOptions, Reading, SuiteError, Survey};
+    /// use rocking_records::{ReadOptions, Reading, SuiteError, Survey};
     /// let folder = Path::new("no such folder");
     /// let options = ReadOptions::default();
     /// let mut samples = 0;
-    /// let found = Survey::visit(folder, &Reading::all(&options, OneThread), |member| {
+    /// let found = Survey::visit(folder, &Reading::all(&options), |member| {
     ///     samples += member.accelerogram.samples_g().len();
     ///     Ok::<(), SuiteError>(())
     /// });
@@ -70,9 +98,9 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if the folder or index itself cannot be read, and
     /// the first error of `keep`.
-    pub fn visit<S: Spread, T: Send, E: From<SuiteError>>(
+    pub fn visit<T: Send, E: From<SuiteError>>(
         path: &Path,
-        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
         keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let shown = path.display().to_string();
@@ -114,12 +142,12 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if an index cannot be read, and the first error of
     /// `keep`.
-    pub fn of_files<S: Spread, T: Send, E: From<SuiteError>>(
+    pub fn of_files<T: Send, E: From<SuiteError>>(
         path: &str,
         names: &[String],
-        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(T) -> Result<K, E>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+        mut file_bytes: impl FnMut(&str) -> Bytes,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
         let (names, doubled): (Vec<&String>, Vec<&String>) =
@@ -137,43 +165,38 @@ impl<K> Survey<K> {
             container(path).clone_into(&mut survey.name);
             for name in names.iter().filter(|name| !listed.contains(**name)) {
                 let shown = format!("{path}/{name}");
-                survey.refuse(name, Fault::Unlisted.whole(&shown));
+                let fault = Fault::Unlisted.whole(&shown);
+                survey.set_aside.extend(Aside::of(name, fault));
             }
         } else {
             survey = Self::empty(path, container(path));
-            let mut given = FallbackUse::default();
-            let read = |name: &&String, bytes: Result<Vec<u8>, _>| {
-                let mut given = FallbackUse::default();
+            let read = |name: &String,
+                        bytes: Bytes,
+                        given: &mut FallbackUse| {
                 let shown = Path::new(path).join(name).display().to_string();
                 let shown = shown.replace(MAIN_SEPARATOR, "/");
                 let within = name.rsplit_once('/').map(|(within, _)| within);
                 let within = within.filter(|_| reading.options.recursive);
-                let one = |settled| {
+                let refuse = |e| Aside::of(name, e).map_err(SuiteError::from);
+                let member = |settled| {
                     let record = given.see(settled);
-                    let member = horizontal(&shown, name, within, record);
-                    member.map(&reading.work)
+                    let found = horizontal(&shown, name, within, record);
+                    found.map(&reading.work).map_err(refuse)
                 };
-                let found: Result<Vec<_>, _> = bytes
+                bytes
                     .and_then(|b| settle(&shown, &b, reading.options, None))
-                    .map(|settled| settled.into_iter().map(one).collect());
-                (given, found.unwrap_or_else(|error| vec![Err(error)]))
+                    .map_or_else(
+                        |error| vec![Err(refuse(error))],
+                        |records| records.into_iter().map(member).collect(),
+                    )
             };
-            let add = |name: &String, (seen, found)| {
-                given.add(seen);
-                for member in found {
-                    match member {
-                        Ok(member) => survey.members.push(Ok(keep(member)?)),
-                        Err(error) => survey.refuse(name, error),
-                    }
-                }
-                Ok::<(), E>(())
-            };
-            reading.each(names, |name| name, file_bytes, read, add)?;
-            survey.members.extend(given.unused());
+            let chosen = names.into_iter().filter(|n| (reading.chosen)(n));
+            survey.add(chosen, |name| file_bytes(name), read, keep)?;
         }
         for name in doubled {
             let shown = format!("{path}/{name}");
-            survey.refuse(name, Fault::Doubled.whole(&shown));
+            let fault = Fault::Doubled.whole(&shown);
+            survey.set_aside.extend(Aside::of(name, fault));
         }
         Ok(survey)
     }
@@ -190,20 +213,53 @@ impl<K> Survey<K> {
         }
     }
 
-    /// Sets a refused file aside, or adds its error as a fault of the suite.
-    fn refuse(&mut self, name: &str, error: RecordError) {
-        match Aside::of(name, error) {
-            Ok(aside) => self.set_aside.extend([aside]),
-            Err(error) => self.members.push(Err(error.into())),
+    /// Reads files on all threads, and keeps the result of `keep` for each of
+    /// their records, in the order of the files.
+    fn add<F: Send, T: Send, E>(
+        &mut self,
+        files: impl Iterator<Item = F>,
+        mut file_bytes: impl FnMut(&F) -> Bytes,
+        read: impl Fn(F, Bytes, &mut FallbackUse) -> Vec<Result<T, Refused>> + Sync,
+        mut keep: impl FnMut(T) -> Result<K, E>,
+    ) -> Result<(), E> {
+        let most = CHUNK * rayon::current_num_threads();
+        let work = |(file, bytes)| {
+            let mut given = FallbackUse::default();
+            (read(file, bytes, &mut given), given)
+        };
+        let mut given = FallbackUse::default();
+        let mut files = files.peekable();
+        while files.peek().is_some() {
+            let (mut chunk, mut size) = (Vec::new(), 0);
+            while size < most
+                && let Some(file) = files.next()
+            {
+                let bytes = file_bytes(&file);
+                size += bytes.as_ref().map_or(0, Vec::len);
+                chunk.push((file, bytes));
+            }
+            let chunk = chunk.into_par_iter().panic_fuse().map(work);
+            for (found, seen) in chunk.collect::<Vec<_>>() {
+                given.add(seen);
+                for member in found {
+                    match member {
+                        Ok(member) => self.members.push(Ok(keep(member)?)),
+                        Err(Ok(aside)) => self.set_aside.extend([aside]),
+                        Err(Err(error)) => self.members.push(Err(error)),
+                    }
+                }
+            }
         }
+        self.members.extend(given.unused());
+        Ok(())
     }
 
-    pub(super) fn of_index<S: Spread, T: Send, E: From<SuiteError>>(
+    pub(super) fn of_index<T: Send, E: From<SuiteError>>(
         path: &str,
         bytes: &[u8],
-        reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
-        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(T) -> Result<K, E>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+        mut file_bytes: impl FnMut(&str) -> Bytes,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let Index { rows, paired, study_rule } = Index::parse(path, bytes)?;
         // PEER's index has the name of its folder.
@@ -211,25 +267,16 @@ impl<K> Survey<K> {
         let name = folder.filter(|folder| !folder.is_empty());
         let empty = Self::empty(path, name.unwrap_or(stem(path)));
         let mut survey = Self { paired, study_rule, ..empty };
-        let mut given = FallbackUse::default();
-        let read = |row: &IndexRow, bytes: Result<Vec<u8>, _>| {
-            let mut given = FallbackUse::default();
-            let member = bytes.map_err(SuiteError::from).and_then(|bytes| {
-                let see = |settled| given.see(settled);
-                row.member(&bytes, reading.options, see)
-            });
-            (given, member.map(&reading.work))
+        let options = reading.options;
+        let read = |row: IndexRow, bytes: Bytes, given: &mut FallbackUse| {
+            let see = |settled| given.see(settled);
+            let member = bytes.map_err(SuiteError::from);
+            let member = member.and_then(|b| row.member(&b, options, see));
+            vec![member.map(&reading.work).map_err(Err)]
         };
-        let add = |_, (seen, member): (_, Result<T, SuiteError>)| {
-            given.add(seen);
-            survey.members.push(match member {
-                Ok(member) => Ok(keep(member)?),
-                Err(error) => Err(error),
-            });
-            Ok::<(), E>(())
-        };
-        reading.each(rows, |row| &*row.file, file_bytes, read, add)?;
-        survey.members.extend(given.unused());
+        let chosen =
+            rows.into_iter().filter(|row| (reading.chosen)(&row.file));
+        survey.add(chosen, |row| file_bytes(&row.file), read, keep)?;
         Ok(survey)
     }
 }

@@ -149,12 +149,9 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     args.way.way()?;
     let read = args.input.reading.options(gravity_m_s2);
     let processing = args.input.processing()?;
-    let (input, suite) = SuiteInput::read::<Failure>(
-        &args.suite,
-        read,
-        &processing,
-        args.block_samples,
-    )?;
+    let (place, block) = (&args.suite, args.block_samples);
+    let (input, suite) =
+        SuiteInput::read::<Failure>(place, read, &processing, block)?;
     let mut outputs = Outputs::of(files(&args.suite, &suite));
     let out = outputs.open(&args.out)?;
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;

@@ -322,7 +322,7 @@ impl RecordsListing {
     }
 
     fn add_survey(&mut self, path: &Path) -> Result<(), RecordFinding> {
-        let reading = Reading::all(&self.options, inputs::AllThreads);
+        let reading = Reading::all(&self.options);
         let survey = inputs::visit(path, &reading, Ok::<_, SuiteError>)?;
         self.set_aside.extend(survey.set_aside.all().iter().cloned());
         if survey.members.iter().all(Result::is_ok) {

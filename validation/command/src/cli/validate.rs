@@ -22,7 +22,7 @@ use crate::input;
 use crate::terminal::{SOFTWARE, note, print, say};
 use rocking_assessment::{About, PAGE, shaking};
 use rocking_common::files::{OutputFolder, SUMS, sums};
-use rocking_common::suites::inputs::{AllThreads, visit};
+use rocking_common::suites::inputs::visit;
 use rocking_common::suites::remarks::Remarks;
 
 /// A rigid block against shaking-table tests: how many outcomes it predicts,
@@ -151,11 +151,8 @@ impl ValidateCommand {
     /// The tests, and the remarks on their motions.
     fn tests(&self) -> Result<(Vec<ShakingTest>, Remarks), Failure> {
         let options = self.input.reading.options(self.gravity);
-        let survey = visit(
-            &self.tests,
-            &Reading::all(&options, AllThreads),
-            Ok::<_, SuiteError>,
-        )?;
+        let reading = Reading::all(&options);
+        let survey = visit(&self.tests, &reading, Ok::<_, SuiteError>)?;
         let members = survey.members.iter().flatten();
         let remarks = members.map(RemarkInput::from).collect::<Vec<_>>();
         let remarks = Remarks::of(&remarks);

@@ -6,12 +6,11 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use rayon::prelude::*;
 use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
     Fault, MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
-    Reading, Spread, Suite, SuiteError, SuiteMember, Survey,
+    Reading, Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 
@@ -36,23 +35,6 @@ pub const BLOCK_SAMPLES: usize = 1 << 22;
 /// A suite of at most this number of blocks stays in memory as it is read.
 const KEPT_BLOCKS: usize = 3;
 
-/// All threads of the caller's pool.
-pub struct AllThreads;
-
-impl Spread for AllThreads {
-    fn threads(&self) -> usize {
-        rayon::current_num_threads()
-    }
-
-    fn map<A: Send, B: Send>(
-        &self,
-        items: Vec<A>,
-        work: impl Fn(A) -> B + Sync,
-    ) -> Vec<B> {
-        items.into_par_iter().panic_fuse().map(&work).collect()
-    }
-}
-
 /// Reads the suite at `path`: a folder, an index, or a zip of either.
 ///
 /// # Errors
@@ -61,8 +43,7 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    visit(path, &Reading::all(&read, AllThreads), Ok)
-        .and_then(Survey::into_suite)
+    visit(path, &Reading::all(&read), Ok).and_then(Survey::into_suite)
 }
 
 /// A suite whose records are worked off one after the other.
@@ -89,17 +70,18 @@ impl<'a> SuiteInput<'a> {
         block_samples: usize,
     ) -> Result<(Self, Suite<Profile>), E> {
         let most = block_samples.saturating_mul(KEPT_BLOCKS);
-        let (mut kept, mut samples) = (Some(BTreeMap::new()), 0);
-        let input = Self { path, options, processing, kept: None };
-        let survey = input.visit(&|_| true, |member, record| {
+        let (mut kept, mut samples) = (BTreeMap::new(), 0);
+        let mut input = Self { path, options, processing, kept: None };
+        let survey = input.visit(&|_| true, |(member, record)| {
             samples += record.samples_g().len();
-            kept = kept.take().filter(|_| samples <= most);
-            if let Some(kept) = &mut kept {
-                kept.insert(record.name().to_owned(), record);
+            kept.insert(record.name().to_owned(), record);
+            if samples > most {
+                kept.clear();
             }
             Ok::<_, E>(member)
         })?;
-        Ok((Self { kept, ..input }, survey.into_suite()?))
+        input.kept = (samples <= most).then_some(kept);
+        Ok((input, survey.into_suite()?))
     }
 
     /// Passes the records of `chosen`, members of the suite, to `each`, one
@@ -109,38 +91,32 @@ impl<'a> SuiteInput<'a> {
     /// As [`SuiteInput::read`]; [`SuiteError::Changed`] for a record that has
     /// changed; the first error of `each`.
     pub fn each<E: From<SuiteError> + From<ProcessingError>>(
-        mut self,
+        self,
         chosen: &[&SuiteMember<Profile>],
         mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
     ) -> Result<(), E> {
+        if let Some(kept) = self.kept {
+            let record =
+                |m: &SuiteMember<Profile>| &kept[m.accelerogram.name()];
+            return chosen.iter().try_for_each(|m| each(record(m), m));
+        }
         let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
             path: self.path.display().to_string(),
             name: expected.accelerogram.name().to_owned(),
         };
+        let files: BTreeSet<&str> = chosen.iter().map(|m| &*m.file).collect();
         let mut left = chosen.iter().peekable();
-        if let Some(mut kept) = self.kept.take() {
-            while let Some(expected) = left.peek()
-                && let Some(record) = kept.remove(expected.accelerogram.name())
-            {
-                each(&record, expected)?;
-                left.next();
+        self.visit(&|file| files.contains(file), |(found, record)| {
+            let found = found.accelerogram;
+            let is_it = |m: &&&SuiteMember<Profile>| {
+                m.accelerogram.name() == found.name()
+            };
+            match left.next_if(is_it) {
+                Some(m) if m.accelerogram != found => Err(changed(m).into()),
+                Some(member) => each(&record, member),
+                None => Ok(()),
             }
-        } else {
-            let files: BTreeSet<&str> =
-                chosen.iter().map(|member| &*member.file).collect();
-            self.visit(&|file| files.contains(file), |member, record| {
-                let found = member.accelerogram;
-                let Some(expected) =
-                    left.next_if(|m| m.accelerogram.name() == found.name())
-                else {
-                    return Ok(());
-                };
-                if found != expected.accelerogram {
-                    return Err(changed(expected).into());
-                }
-                each(&record, expected)
-            })?;
-        }
+        })?;
         left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
     }
 
@@ -149,21 +125,15 @@ impl<'a> SuiteInput<'a> {
     fn visit<K, E: From<SuiteError> + From<ProcessingError>>(
         &self,
         chosen: &(dyn Fn(&str) -> bool + Sync),
-        mut keep: impl FnMut(SuiteMember<Profile>, Accelerogram) -> Result<K, E>,
+        mut keep: impl FnMut((SuiteMember<Profile>, Accelerogram)) -> Result<K, E>,
     ) -> Result<Survey<K>, E> {
         let work = |mut member: SuiteMember| {
-            let record = self.processing.apply(&member.accelerogram);
-            record.map(|record| {
-                member.accelerogram = record;
-                member.into_profile()
-            })
+            member.accelerogram =
+                self.processing.apply(&member.accelerogram)?;
+            Ok::<_, ProcessingError>(member.into_profile())
         };
-        let (options, spread) = (&self.options, AllThreads);
-        let reading = Reading { options, chosen, spread, work };
-        visit(self.path, &reading, |found| {
-            let (member, record) = found?;
-            keep(member, record)
-        })
+        let reading = Reading { options: &self.options, chosen, work };
+        visit(self.path, &reading, |found| keep(found?))
     }
 }
 
@@ -182,9 +152,9 @@ pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
-pub fn visit<S: Spread, T: Send, K, E: From<SuiteError>>(
+pub fn visit<T: Send, K, E: From<SuiteError>>(
     path: &Path,
-    reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
+    reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
     keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     if path.is_dir() || !is_zip(path) {
@@ -213,10 +183,10 @@ fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
 ///
 /// # Errors
 /// As [`visit`].
-pub fn visit_zip<S: Spread, T: Send, K, E: From<SuiteError>>(
+pub fn visit_zip<T: Send, K, E: From<SuiteError>>(
     shown: &str,
     mut archive: impl Read + Seek,
-    reading: &Reading<'_, S, impl Fn(SuiteMember) -> T + Sync>,
+    reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
     keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
@@ -412,7 +382,7 @@ mod tests {
         let read =
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let visit = |bytes: &[u8]| {
-            let read = Reading::all(&read, AllThreads);
+            let read = Reading::all(&read);
             let keep = Ok::<_, SuiteError>;
             let found = visit_zip("x.zip", Cursor::new(bytes), &read, keep);
             found.map(|_| ()).map_err(|error| error.to_string())

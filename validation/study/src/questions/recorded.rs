@@ -30,7 +30,7 @@ pub fn ridgecrest() -> anyhow::Result<Suite> {
     let survey = inputs::visit_zip(
         "ridgecrest.zip",
         archive,
-        &Reading::all(&options, inputs::AllThreads),
+        &Reading::all(&options),
         Ok::<_, SuiteError>,
     )?;
     Ok(survey.into_suite()?)

@@ -27,8 +27,7 @@ pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     let byte = |i: usize| bytes.get(i).copied().unwrap_or(b' ');
     let digits = |from: usize| {
         let rest = bytes.get(from..).unwrap_or_default();
-        let end = rest.iter().position(|b| !b.is_ascii_digit());
-        end.unwrap_or(rest.len())
+        rest.iter().take_while(|b| b.is_ascii_digit()).count()
     };
     let sign = |i: usize| usize::from(matches!(byte(i), b'+' | b'-'));
     let mut end = start + sign(start);
@@ -94,13 +93,11 @@ pub(super) fn read(text: &str) -> Option<(f64, Form)> {
         return named.then_some((f64::NAN, Form::default()));
     };
     let (mantissa, exponent) = text.split_at(token.end - token.form.exponent);
+    let digits = exponent.trim_start_matches(['d', 'D']);
     // Only Fortran's exponents are written anew.
     let parsed = match exponent.as_bytes() {
         [] | [b'e' | b'E', ..] => text.parse::<f64>(),
-        _ => {
-            let digits = exponent.trim_start_matches(['d', 'D']);
-            format!("{mantissa}e{digits}").parse()
-        }
+        _ => format!("{mantissa}e{digits}").parse(),
     };
     Some((parsed.ok()?, token.form))
 }

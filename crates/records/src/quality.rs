@@ -3,7 +3,7 @@
 //! A remark changes nothing: samples stay as they are.
 
 use std::borrow::Cow;
-use std::cmp::Ordering;
+use std::cmp::Ordering::Equal;
 use std::collections::BTreeMap;
 
 use thiserror::Error;
@@ -292,23 +292,12 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
     let motion = |i: &usize| {
         (records[*i].dt_s, records[*i].before, &records[*i].about_peak)
     };
-    let order = |i: &usize, j: &usize| {
-        motion(i).partial_cmp(&motion(j)).unwrap_or(Ordering::Equal)
-    };
     let mut sorted: Vec<usize> = (0..records.len()).collect();
-    sorted.sort_by(order);
+    sorted.sort_by(|i, j| motion(i).partial_cmp(&motion(j)).unwrap_or(Equal));
     // Equal motions are compared once, whatever their number.
-    let groups: Vec<&[usize]> =
-        sorted.chunk_by(|i, j| order(i, j).is_eq()).collect();
-    let one: Vec<_> = groups.iter().map(|group| records[group[0]]).collect();
-    let near: Vec<_> = one.iter().map(|r| r.near_peak()).collect();
-    let alike = |i: usize, j: usize| {
-        if one[i].dt_s != one[j].dt_s || differ(&near[i], &near[j]) {
-            return None;
-        }
-        let correlation = correlation(one[i], one[j]);
-        (correlation > SAME_RECORDING).then_some(correlation)
-    };
+    let equal = sorted.chunk_by(|i, j| motion(i) == motion(j));
+    let near = |group: &[usize]| records[group[0]].near_peak();
+    let motions: Vec<_> = equal.map(|group| (group, near(group))).collect();
     let mut found = vec![None; records.len()];
     let mut note = |of: &[usize], by: &[usize], correlation| {
         for &i in of {
@@ -322,20 +311,19 @@ fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
             }
         }
     };
-    // A few motions against all later ones, so that these are read once.
-    for from in (0..groups.len()).step_by(TILE) {
-        let to = groups.len().min(from + TILE);
-        for j in from..groups.len() {
-            stop::point();
-            for i in from..to.min(j + 1) {
-                let pair = i != j;
-                if (pair || groups[i].len() > 1)
-                    && let Some(correlation) = alike(i, j)
-                {
-                    note(groups[i], groups[j], correlation);
-                    if pair {
-                        note(groups[j], groups[i], correlation);
-                    }
+    for i in 0..motions.len() {
+        stop::point();
+        let (of, near) = &motions[i];
+        for (by, other) in &motions[i + usize::from(of.len() == 1)..] {
+            let (first, second) = (records[of[0]], records[by[0]]);
+            if differ(near, other) || first.dt_s != second.dt_s {
+                continue;
+            }
+            let correlation = correlation(first, second);
+            if correlation > SAME_RECORDING {
+                note(of, by, correlation);
+                if of != by {
+                    note(by, of, correlation);
                 }
             }
         }
@@ -378,26 +366,30 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
 /// Number of sums that are computed side by side.
 const LANES: usize = 8;
 
-/// Number of records that are compared with all later ones together.
-const TILE: usize = 16;
-
-/// Samples near a peak less their mean, of length 1.
-type NearPeak = [f32; 2 * FEW_SAMPLES];
+/// Motion near a peak.
+struct NearPeak {
+    /// Samples less their mean, of length 1.
+    unit: [f32; 2 * FEW_SAMPLES],
+    /// The least correlation of these samples with those of the same recording.
+    least: f64,
+}
 
 /// Whether two motions are certainly too different near their peaks.
 fn differ(first: &Option<NearPeak>, second: &Option<NearPeak>) -> bool {
     let (Some(first), Some(second)) = (first, second) else { return false };
+    let (x, y) = (
+        first.unit.as_chunks::<LANES>().0,
+        second.unit.as_chunks::<LANES>().0,
+    );
     let mut sums = [0.0_f32; LANES];
-    for (x, y) in
-        first.as_chunks::<LANES>().0.iter().zip(second.as_chunks::<LANES>().0)
-    {
+    for (x, y) in x.iter().zip(y) {
         for k in 0..LANES {
             sums[k] += x[k] * y[k];
         }
     }
-    let sum = sums.iter().fold(0.0, |sum, part| sum + f64::from(*part));
+    let sum: f32 = sums.iter().sum();
     // With a margin for single precision.
-    !(sum.abs() > NOT_YET_DIFFERENT - 1e-4)
+    !(f64::from(sum.abs()) > first.least.max(second.least) - 1e-4)
 }
 
 fn correlation(first: &Profile, second: &Profile) -> f64 {

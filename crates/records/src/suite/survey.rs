@@ -150,6 +150,7 @@ impl<K> Survey<K> {
         keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
+        let options = reading.options;
         let (names, doubled): (Vec<&String>, Vec<&String>) =
             names.iter().partition(|name| known.insert(*name));
         let mut survey;
@@ -176,19 +177,17 @@ impl<K> Survey<K> {
                 let shown = Path::new(path).join(name).display().to_string();
                 let shown = shown.replace(MAIN_SEPARATOR, "/");
                 let within = name.rsplit_once('/').map(|(within, _)| within);
-                let within = within.filter(|_| reading.options.recursive);
+                let within = within.filter(|_| options.recursive);
                 let refuse = |e| Aside::of(name, e).map_err(SuiteError::from);
                 let member = |settled| {
                     let record = given.see(settled);
                     let found = horizontal(&shown, name, within, record);
                     found.map(&reading.work).map_err(refuse)
                 };
-                bytes
-                    .and_then(|b| settle(&shown, &b, reading.options, None))
-                    .map_or_else(
-                        |error| vec![Err(refuse(error))],
-                        |records| records.into_iter().map(member).collect(),
-                    )
+                match bytes.and_then(|b| settle(&shown, &b, options, None)) {
+                    Ok(records) => records.into_iter().map(member).collect(),
+                    Err(error) => vec![Err(refuse(error))],
+                }
             };
             let chosen = names.into_iter().filter(|n| (reading.chosen)(n));
             survey.add(chosen, |name| file_bytes(name), read, keep)?;
@@ -222,7 +221,6 @@ impl<K> Survey<K> {
         read: impl Fn(F, Bytes, &mut FallbackUse) -> Vec<Result<T, Refused>> + Sync,
         mut keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<(), E> {
-        let most = CHUNK * rayon::current_num_threads();
         let work = |(file, bytes)| {
             let mut given = FallbackUse::default();
             (read(file, bytes, &mut given), given)
@@ -231,7 +229,7 @@ impl<K> Survey<K> {
         let mut files = files.peekable();
         while files.peek().is_some() {
             let (mut chunk, mut size) = (Vec::new(), 0);
-            while size < most
+            while size < CHUNK * rayon::current_num_threads()
                 && let Some(file) = files.next()
             {
                 let bytes = file_bytes(&file);
@@ -267,12 +265,12 @@ impl<K> Survey<K> {
         let name = folder.filter(|folder| !folder.is_empty());
         let empty = Self::empty(path, name.unwrap_or(stem(path)));
         let mut survey = Self { paired, study_rule, ..empty };
-        let options = reading.options;
         let read = |row: IndexRow, bytes: Bytes, given: &mut FallbackUse| {
             let see = |settled| given.see(settled);
-            let member = bytes.map_err(SuiteError::from);
-            let member = member.and_then(|b| row.member(&b, options, see));
-            vec![member.map(&reading.work).map_err(Err)]
+            let found = bytes.map_err(SuiteError::from);
+            let found =
+                found.and_then(|b| row.member(&b, reading.options, see));
+            vec![found.map(&reading.work).map_err(Err)]
         };
         let chosen =
             rows.into_iter().filter(|row| (reading.chosen)(&row.file));

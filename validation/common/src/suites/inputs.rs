@@ -108,10 +108,7 @@ impl<'a> SuiteInput<'a> {
         let mut left = chosen.iter().peekable();
         self.visit(&|file| files.contains(file), |(found, record)| {
             let found = found.accelerogram;
-            let is_it = |m: &&&SuiteMember<Profile>| {
-                m.accelerogram.name() == found.name()
-            };
-            match left.next_if(is_it) {
+            match left.next_if(|m| m.accelerogram.name() == found.name()) {
                 Some(m) if m.accelerogram != found => Err(changed(m).into()),
                 Some(member) => each(&record, member),
                 None => Ok(()),

@@ -60,8 +60,8 @@ impl Profile {
         let from = self.before.checked_sub(FEW_SAMPLES)?;
         let near = self.about_peak.get(from..self.before + FEW_SAMPLES)?;
         let squares = |samples: &[f32], mean: f64| {
-            let square = |a: &f32| (f64::from(*a) - mean).powi(2);
-            samples.iter().map(square).sum::<f64>()
+            let parts = samples.iter().map(|a| f64::from(*a) - mean);
+            parts.map(|part| part * part).sum::<f64>()
         };
         let mean = mean_of(near);
         let of_near = squares(near, mean);

@@ -172,22 +172,26 @@ impl<K> Survey<K> {
         } else {
             survey = Self::empty(path, container(path));
             let read = |name: &String,
-                        bytes: Bytes,
+                        text: Bytes,
                         given: &mut FallbackUse| {
                 let shown = Path::new(path).join(name).display().to_string();
                 let shown = shown.replace(MAIN_SEPARATOR, "/");
                 let within = name.rsplit_once('/').map(|(within, _)| within);
                 let within = within.filter(|_| options.recursive);
                 let refuse = |e| Aside::of(name, e).map_err(SuiteError::from);
-                let member = |settled| {
+                let mut found = Vec::new();
+                let records = text
+                    .and_then(|b| settle(&shown, &b, options, None))
+                    .unwrap_or_else(|error| {
+                        found.push(Err(refuse(error)));
+                        Vec::new()
+                    });
+                for settled in records {
                     let record = given.see(settled);
-                    let found = horizontal(&shown, name, within, record);
-                    found.map(&reading.work).map_err(refuse)
-                };
-                match bytes.and_then(|b| settle(&shown, &b, options, None)) {
-                    Ok(records) => records.into_iter().map(member).collect(),
-                    Err(error) => vec![Err(refuse(error))],
+                    let member = horizontal(&shown, name, within, record);
+                    found.push(member.map(&reading.work).map_err(refuse));
                 }
+                found
             };
             let chosen = names.into_iter().filter(|n| (reading.chosen)(n));
             survey.add(chosen, |name| file_bytes(name), read, keep)?;

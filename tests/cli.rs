@@ -18,6 +18,8 @@ mod grazing;
 mod limits;
 #[path = "cli/means.rs"]
 mod means;
+#[path = "cli/opens.rs"]
+mod opens;
 #[path = "cli/order.rs"]
 mod order;
 #[path = "cli/plots.rs"]

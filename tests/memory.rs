@@ -10,8 +10,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use peak_alloc::PeakAlloc;
-use rocking_common::suites::inputs;
-use rocking_records::{Processing, Profile, ReadOptions, Suite};
+use rocking::stop::Stop;
+use rocking_common::suites::inputs::SuiteInput;
+use rocking_records::{Processing, ReadOptions};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -231,7 +232,7 @@ fn a_packed_megabyte_takes_no_more_either() {
 
 /// The samples of a suite that is worked off in blocks stay in their files.
 fn profiles_hold_no_samples() {
-    const RECORDS: usize = 40;
+    const RECORDS: usize = 80;
     const SAMPLES: usize = 100_000;
     let place = tempfile::tempdir().unwrap();
     let text = dense(2 * SAMPLES).swap_remove(0).1;
@@ -243,17 +244,20 @@ fn profiles_hold_no_samples() {
     let (read, none) = (ReadOptions::default(), Processing::default());
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
-    let suite: Suite<Profile> =
-        inputs::profiles::<anyhow::Error>(&path, read, &none).unwrap();
-    let members: Vec<_> = suite.members().iter().collect();
-    let mut seen = 0;
-    inputs::reread::<anyhow::Error>(&path, read, &none, &members, |r, _| {
-        assert_eq!(r.samples_g().len(), SAMPLES);
-        seen += 1;
-        Ok(())
-    })
-    .unwrap();
-    assert_eq!(seen, RECORDS);
+    let work = || {
+        let mut seen = 0;
+        let found = SuiteInput::read(&path, read, &none, SAMPLES);
+        let (input, suite) = found.map_err(|error: anyhow::Error| error)?;
+        let members: Vec<_> = suite.members().iter().collect();
+        input.each(&members, |record, _| {
+            assert_eq!(record.samples_g().len(), SAMPLES);
+            seen += 1;
+            anyhow::Ok(())
+        })?;
+        anyhow::Ok(seen)
+    };
+    // More threads read more files at a time.
+    assert_eq!(Stop::default().run(2, work).unwrap().unwrap(), RECORDS);
     let used = ALLOCATOR.peak_usage() - before;
     let held = RECORDS * SAMPLES * size_of::<f64>();
     println!("a suite in blocks: {} MiB", used as f64 / MIB as f64);

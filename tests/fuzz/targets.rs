@@ -16,8 +16,8 @@ use rocking_procedures::fragility::hazard::{Hazard, HazardOptions, Site};
 use rocking_proof::cases;
 use rocking_records::intensity::Intensity;
 use rocking_records::{
-    Format, Header, ReadOptions, Record, RecordError, Suite, SuiteError,
-    SuiteMember, read_all, read_as,
+    Format, Header, ReadOptions, Reading, Record, RecordError, Suite,
+    SuiteError, SuiteMember, read_all, read_as,
 };
 use rocking_score::Answers;
 use rocking_statistics::Lognormal;
@@ -111,7 +111,7 @@ fn zip(bytes: &[u8]) -> Result<(), String> {
     let survey = inputs::visit_zip(
         "x.zip",
         archive,
-        &ReadOptions::default(),
+        &Reading::all(&ReadOptions::default()),
         Ok::<_, SuiteError>,
     );
     let survey = survey.map_err(|error| error.to_string())?;

@@ -57,7 +57,12 @@ pub(super) fn infer(
     let mut votes: BTreeMap<FieldLayout, usize> = BTreeMap::new();
     let lines = text.lines_from(first).take(full);
     for layout in lines.filter_map(|line| layout_of(line, missing)) {
-        *votes.entry(layout).or_default() += 1;
+        let votes = votes.entry(layout).or_default();
+        *votes += 1;
+        // The other lines cannot outvote it.
+        if 2 * *votes > full {
+            return Some(layout);
+        }
     }
     let (layout, votes) = votes.into_iter().max_by_key(|(_, n)| *n)?;
     (2 * votes >= full).then_some(layout)

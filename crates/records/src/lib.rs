@@ -44,8 +44,8 @@ pub use quality::{
 pub use read::{file_bytes, read, read_all, read_as, read_file};
 pub use record::{Fallback, ReadOptions, Record, sha256_hex};
 pub use suite::{
-    Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
-    Suite, SuiteError, SuiteMember, Survey, is_index,
+    Aside, AsideCount, AsideReason, PEAK_TOLERANCE, Reading, SetAside,
+    StudyRule, Suite, SuiteError, SuiteMember, Survey, is_index,
 };
 
 #[cfg(test)]

@@ -26,7 +26,8 @@ pub(super) struct Form {
 pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     let byte = |i: usize| bytes.get(i).copied().unwrap_or(b' ');
     let digits = |from: usize| {
-        (from..).take_while(|&i| byte(i).is_ascii_digit()).count()
+        let rest = bytes.get(from..).unwrap_or_default();
+        rest.iter().take_while(|b| b.is_ascii_digit()).count()
     };
     let sign = |i: usize| usize::from(matches!(byte(i), b'+' | b'-'));
     let mut end = start + sign(start);
@@ -91,13 +92,12 @@ pub(super) fn read(text: &str) -> Option<(f64, Form)> {
         let named = ["nan", "inf", "infinity"].contains(&word.as_str());
         return named.then_some((f64::NAN, Form::default()));
     };
-    let mantissa = &text[..token.end - token.form.exponent];
-    let exponent =
-        text[mantissa.len()..].trim_start_matches(['e', 'E', 'd', 'D']);
-    let parsed = if exponent.is_empty() {
-        mantissa.parse::<f64>()
-    } else {
-        format!("{mantissa}e{exponent}").parse::<f64>()
+    let (mantissa, exponent) = text.split_at(token.end - token.form.exponent);
+    let digits = exponent.trim_start_matches(['d', 'D']);
+    // Only Fortran's exponents are written anew.
+    let parsed = match exponent.as_bytes() {
+        [] | [b'e' | b'E', ..] => text.parse::<f64>(),
+        _ => format!("{mantissa}e{digits}").parse(),
     };
     Some((parsed.ok()?, token.form))
 }

@@ -3,6 +3,7 @@
 //! A remark changes nothing: samples stay as they are.
 
 use std::borrow::Cow;
+use std::cmp::Ordering::Equal;
 use std::collections::BTreeMap;
 
 use thiserror::Error;
@@ -288,33 +289,41 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// on each side and, if these are alike, up to 512. Scale, sign and mean do
 /// not matter.
 fn duplicates(records: &[&Profile]) -> Vec<Option<(usize, f64, usize)>> {
-    let near: Vec<_> = records.iter().map(|r| r.near_peak()).collect();
-    let alike = |i: usize, j: usize| {
-        let (first, second) = (records[i], records[j]);
-        if first.dt_s != second.dt_s || differ(&near[i], &near[j]) {
-            return None;
-        }
-        let correlation = correlation(first, second);
-        (correlation > SAME_RECORDING).then_some(correlation)
+    let motion = |i: &usize| {
+        (records[*i].dt_s, records[*i].before, &records[*i].about_peak)
     };
+    let mut sorted: Vec<usize> = (0..records.len()).collect();
+    sorted.sort_by(|i, j| motion(i).partial_cmp(&motion(j)).unwrap_or(Equal));
+    // Equal motions are compared once, whatever their number.
+    let equal = sorted.chunk_by(|i, j| motion(i) == motion(j));
+    let near = |group: &[usize]| records[group[0]].near_peak();
+    let motions: Vec<_> = equal.map(|group| (group, near(group))).collect();
     let mut found = vec![None; records.len()];
-    let mut note = |of: usize, by: usize, correlation| {
-        let (first, with_first, count) =
-            found[of].get_or_insert((by, correlation, 0));
-        *count += 1;
-        if by < *first {
-            (*first, *with_first) = (by, correlation);
+    let mut note = |of: &[usize], by: &[usize], correlation| {
+        for &i in of {
+            let others = by.len() - usize::from(by.binary_search(&i).is_ok());
+            let other = by[usize::from(by[0] == i)];
+            let (first, with_first, count) =
+                found[i].get_or_insert((other, correlation, 0));
+            *count += others;
+            if other < *first {
+                (*first, *with_first) = (other, correlation);
+            }
         }
     };
-    // A few records against all later ones, so that these are read once.
-    for from in (0..records.len()).step_by(TILE) {
-        let to = records.len().min(from + TILE);
-        for j in from + 1..records.len() {
-            stop::point();
-            for i in from..to.min(j) {
-                if let Some(correlation) = alike(i, j) {
-                    note(i, j, correlation);
-                    note(j, i, correlation);
+    for i in 0..motions.len() {
+        stop::point();
+        let (of, near) = &motions[i];
+        for (by, other) in &motions[i + usize::from(of.len() == 1)..] {
+            let (first, second) = (records[of[0]], records[by[0]]);
+            if differ(near, other) || first.dt_s != second.dt_s {
+                continue;
+            }
+            let correlation = correlation(first, second);
+            if correlation > SAME_RECORDING {
+                note(of, by, correlation);
+                if of != by {
+                    note(by, of, correlation);
                 }
             }
         }
@@ -357,26 +366,30 @@ pub fn remarks_together(records: &[RemarkInput<'_>]) -> Vec<Vec<Remark>> {
 /// Number of sums that are computed side by side.
 const LANES: usize = 8;
 
-/// Number of records that are compared with all later ones together.
-const TILE: usize = 16;
-
-/// Samples near a peak less their mean, of length 1.
-type NearPeak = [f32; 2 * FEW_SAMPLES];
+/// Motion near a peak.
+struct NearPeak {
+    /// Samples less their mean, of length 1.
+    unit: [f32; 2 * FEW_SAMPLES],
+    /// The least correlation of these samples with those of the same recording.
+    least: f64,
+}
 
 /// Whether two motions are certainly too different near their peaks.
 fn differ(first: &Option<NearPeak>, second: &Option<NearPeak>) -> bool {
     let (Some(first), Some(second)) = (first, second) else { return false };
+    let (x, y) = (
+        first.unit.as_chunks::<LANES>().0,
+        second.unit.as_chunks::<LANES>().0,
+    );
     let mut sums = [0.0_f32; LANES];
-    for (x, y) in
-        first.as_chunks::<LANES>().0.iter().zip(second.as_chunks::<LANES>().0)
-    {
+    for (x, y) in x.iter().zip(y) {
         for k in 0..LANES {
             sums[k] += x[k] * y[k];
         }
     }
-    let sum = sums.iter().fold(0.0, |sum, part| sum + f64::from(*part));
+    let sum: f32 = sums.iter().sum();
     // With a margin for single precision.
-    !(sum.abs() > NOT_YET_DIFFERENT - 1e-4)
+    !(f64::from(sum.abs()) > first.least.max(second.least) - 1e-4)
 }
 
 fn correlation(first: &Profile, second: &Profile) -> f64 {

@@ -14,7 +14,7 @@ mod survey;
 pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
 pub use index::is_index;
-pub use survey::Survey;
+pub use survey::{Reading, Survey};
 
 use crate::error::RecordError;
 use crate::format::Format;
@@ -98,9 +98,9 @@ impl SuiteMember {
         }
     }
 
-    /// The member without its samples.
-    pub fn into_profile(self) -> SuiteMember<Profile> {
-        SuiteMember {
+    /// The member without its samples, and these.
+    pub fn into_profile(self) -> (SuiteMember<Profile>, Accelerogram) {
+        let member = SuiteMember {
             accelerogram: Profile::of(&self.accelerogram),
             file: self.file,
             format: self.format,
@@ -113,7 +113,8 @@ impl SuiteMember {
             given: self.given,
             line: self.line,
             attributes: self.attributes,
-        }
+        };
+        (member, self.accelerogram)
     }
 }
 
@@ -187,7 +188,7 @@ impl Suite {
         options: &ReadOptions,
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        Survey::of_index(path, bytes, options, file_bytes, Ok)
+        Survey::of_index(path, bytes, &Reading::all(options), file_bytes, Ok)
             .and_then(Survey::into_suite)
     }
 

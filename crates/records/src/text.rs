@@ -10,13 +10,19 @@ use rocking::units::AccelerationUnit;
 /// Lines of one file. Faults are built here, so that each has its place.
 pub(super) struct Text<'a> {
     pub(super) file: &'a str,
-    text: &'a str,
+    pub(super) text: &'a str,
     /// Byte offset at which each line begins, and the end of the last line.
     /// A `&str` per line would cost 16 bytes for lines as short as 2.
     starts: Vec<u32>,
     /// Whether the text ends with the end of a line.
     pub(super) is_ended: bool,
 }
+
+/// Number of lines between two checks of `stop::point`.
+const STOP_LINES: usize = 64;
+
+/// Number of bytes that are searched at a time.
+const BLOCK: usize = 1 << 12;
 
 /// Bytes as text: UTF-16 if they begin with its mark, else UTF-8, else Latin-1
 /// (station names). Bytes with control characters are not text.
@@ -33,7 +39,9 @@ pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>> {
     // Old systems end a text file with one or more Ctrl-Z.
     let last = bytes.iter().rposition(|b| *b != 0x1a);
     let bytes = &bytes[..last.map_or(0, |at| at + 1)];
-    if let Some(offset) = bytes.iter().position(|&b| is_control(b)) {
+    if any(bytes, is_control)
+        && let Some(offset) = bytes.iter().position(|&b| is_control(b))
+    {
         if looks_like_utf_16(bytes) {
             return Err(Fault::Utf16("no byte order mark").whole(file));
         }
@@ -44,6 +52,13 @@ pub(super) fn decode<'a>(file: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>> {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(latin_1(bytes)),
     })
+}
+
+/// Whether `is` is true for any byte; in blocks, which are fast.
+pub(super) fn any(bytes: &[u8], is: impl Fn(u8) -> bool) -> bool {
+    let in_block =
+        |block: &[u8]| block.iter().fold(false, |any, b| any | is(*b));
+    bytes.chunks(BLOCK).any(in_block)
 }
 
 /// A control character that no text file has.
@@ -112,12 +127,12 @@ impl<'a> Text<'a> {
         let count = kept.bytes().filter(|b| *b == separator).count();
         let mut starts = Vec::with_capacity(count + 2);
         starts.push(0);
-        let ends = (1_u32..).zip(kept.bytes());
-        let ends = ends.filter(|(_, b)| *b == separator);
-        starts.extend(ends.map(|(i, _)| {
+        for (block, part) in kept.as_bytes().chunks(BLOCK).enumerate() {
             stop::point();
-            i
-        }));
+            let ends = part.iter().zip(block * BLOCK + 1..);
+            let ends = ends.filter(|(b, _)| **b == separator);
+            starts.extend(ends.map(|(_, end)| end as u32));
+        }
         // The last line's blanks belong to it.
         let rest = &text.as_bytes()[kept.len()..];
         let end = rest.iter().position(|b| *b == separator);
@@ -142,11 +157,15 @@ impl<'a> Text<'a> {
     /// The line of index `index`, line `index` + 1 of the file, without its
     /// end; `None` after the last.
     pub fn line(&self, index: usize) -> Option<&'a str> {
-        stop::point();
+        if index.is_multiple_of(STOP_LINES) {
+            stop::point();
+        }
         let (start, end) =
             (self.starts.get(index)?, self.starts.get(index + 1)?);
         let line = &self.text[*start as usize..*end as usize];
-        Some(line.trim_end_matches(['\r', '\n']))
+        let mark = |b: &u8| !matches!(b, b'\r' | b'\n');
+        let last = line.as_bytes().iter().rposition(mark);
+        Some(&line[..last.map_or(0, |last| last + 1)])
     }
 
     /// Lines that do not begin with `#`, and their indices.

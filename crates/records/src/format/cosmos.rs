@@ -40,13 +40,21 @@ pub(super) static FORMAT: Format = Format {
     files: "COSMOS and CSMIP V1 and V2",
     source: "United States",
     azimuths: true,
-    recognises: |text| text.lines().any(announces),
+    recognises: |text| {
+        text::any(text.text.as_bytes(), is_s) && text.lines().any(announces)
+    },
     read,
     ..Format::BASE
 };
 
+/// A letter of all three forms, which no line of numbers has.
+fn is_s(byte: u8) -> bool {
+    byte.eq_ignore_ascii_case(&b's')
+}
+
 fn announces(line: &str) -> bool {
-    is_cosmos(line) || is_csmip(line) || is_raw(line)
+    line.bytes().any(is_s)
+        && (is_cosmos(line) || is_csmip(line) || is_raw(line))
 }
 
 fn is_cosmos(line: &str) -> bool {

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::{COMPARED_SAMPLES, FEW_SAMPLES, NearPeak, Remark};
-use super::{mean_of, remarks};
+use super::{COMPARED_SAMPLES, FEW_SAMPLES, NOT_YET_DIFFERENT, NearPeak};
+use super::{Remark, SAME_RECORDING, mean_of, remarks};
 use rocking::accelerogram::Accelerogram;
 
 /// A summary of a motion whose samples stay in their file. It is enough to
@@ -55,22 +55,24 @@ impl Profile {
         &self.name
     }
 
-    /// The samples near the peak less their mean, of length 1; `None` if there
-    /// are too few.
+    /// The motion near the peak; `None` if there are too few samples.
     pub(super) fn near_peak(&self) -> Option<NearPeak> {
         let from = self.before.checked_sub(FEW_SAMPLES)?;
         let near = self.about_peak.get(from..self.before + FEW_SAMPLES)?;
-        let mean = mean_of(near);
-        let square = |sum: f64, a: &f32| {
-            let part = f64::from(*a) - mean;
-            sum + part * part
+        let squares = |samples: &[f32], mean: f64| {
+            let parts = samples.iter().map(|a| f64::from(*a) - mean);
+            parts.map(|part| part * part).sum::<f64>()
         };
-        let length = near.iter().fold(0.0, square).sqrt();
-        let mut unit = [0.0; 2 * FEW_SAMPLES];
-        for (unit, a) in unit.iter_mut().zip(near) {
-            *unit = ((f64::from(*a) - mean) / length) as f32;
-        }
-        Some(unit)
+        let mean = mean_of(near);
+        let of_near = squares(near, mean);
+        let unit =
+            |k: usize| ((f64::from(near[k]) - mean) / of_near.sqrt()) as f32;
+        // What one recording cannot explain of the other near the peak is at
+        // most what it cannot explain of all samples.
+        let all = squares(&self.about_peak, mean_of(&self.about_peak));
+        let off = (1.0 - SAME_RECORDING * SAME_RECORDING) * all / of_near;
+        let least = f64::max(1.0 - off, 0.0).sqrt().max(NOT_YET_DIFFERENT);
+        Some(NearPeak { unit: std::array::from_fn(unit), least })
     }
 }
 

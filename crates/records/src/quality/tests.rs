@@ -87,6 +87,84 @@ fn a_recording_is_known_again_by_its_shape() {
     assert_eq!(others, [(0, 37, 1), (1, 35, 1), (35, 1, 1), (37, 0, 1)]);
 }
 
+/// Equal records are compared once, and count each.
+#[test]
+fn copies_count_beside_what_is_only_similar() {
+    let record = |samples| Accelerogram::try_new("x", 0.01, samples).unwrap();
+    let near = clean().iter().map(|a| a + 1e-5).collect();
+    let other = clean().iter().rev().map(|a| a.abs()).collect();
+    let [a, b, c] = [clean(), near, other].map(|s| Profile::of(&record(s)));
+    let found = duplicates(&[&b, &a, &c, &a, &b, &a]);
+    let counts = found.iter().map(|of| of.map(|(first, _, n)| (first, n)));
+    let expected = [Some((1, 4)), Some((0, 4)), None];
+    let later = [Some((0, 4)); 3];
+    assert_eq!(counts.collect::<Vec<_>>(), [expected, later].concat());
+}
+
+/// What is compared does not change what is found.
+mod pairwise {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Every record against every other one.
+    fn of_all_pairs(records: &[&Profile]) -> Vec<Option<(usize, u64, usize)>> {
+        let of_one = |i: usize| {
+            let alike = (0..records.len()).filter_map(|j| {
+                let (first, second) = (records[i], records[j]);
+                let with = correlation(first, second);
+                let same = i != j && first.dt_s == second.dt_s;
+                (same && with > SAME_RECORDING).then_some((j, with.to_bits()))
+            });
+            let alike: Vec<_> = alike.collect();
+            let (first, with) = alike.first()?;
+            Some((*first, *with, alike.len()))
+        };
+        (0..records.len()).map(of_one).collect()
+    }
+
+    /// One of three motions, with a little or much of another, from a sample
+    /// to a sample, at one of two intervals.
+    fn motion() -> impl Strategy<Value = Profile> {
+        let shape = (0..3_u8, prop_oneof![Just(0.0), 0.0..0.4], 0..4_u8);
+        let cut = (prop_oneof![Just(0), 0..330_usize], 350..900_usize);
+        let scale = prop_oneof![Just(0.2), Just(-0.1)];
+        (shape, cut, scale, 0..8).prop_map(
+            |(shape, (from, to), scale, slow)| {
+                let (base, share, other) = shape;
+                let wave = |i: usize, k: u8| {
+                    let (k, t) = (f64::from(k), i as f64 / 100.0 - 3.4);
+                    libm::exp(-t * t * (0.2 + k))
+                        * libm::cos((7.0 + 5.0 * k) * t + 0.3 * k)
+                };
+                let sample =
+                    |i| scale * (wave(i, base) + share * wave(i, 3 + other));
+                let dt_s = if slow == 0 { 0.02 } else { 0.01 };
+                let samples = (from..to).map(sample).collect();
+                let record = Accelerogram::try_new("x", dt_s, samples);
+                Profile::of(&record.unwrap())
+            },
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn all_pairs_give_the_same(
+            motions in prop::collection::vec(motion(), 2..24),
+            twice in prop::collection::vec(any::<prop::sample::Index>(), 0..6),
+        ) {
+            let copies = twice.iter().map(|k| k.get(&motions));
+            let records: Vec<_> = motions.iter().chain(copies).collect();
+            let found = duplicates(&records).into_iter();
+            let bits = |(by, with, n): (usize, f64, usize)| {
+                (by, with.to_bits(), n)
+            };
+            let found: Vec<_> = found.map(|of| of.map(bits)).collect();
+            prop_assert_eq!(found, of_all_pairs(&records));
+        }
+    }
+}
+
 /// The same numbers at another interval are another motion.
 #[test]
 fn records_of_different_intervals_are_not_one_recording() {

@@ -1,6 +1,5 @@
 //! The index of a suite: a CSV file with a header, columns by name.
 
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::cells::split;
@@ -24,7 +23,7 @@ pub(super) struct Index {
 
 /// One row of an index.
 pub(super) struct IndexRow {
-    head: Rc<IndexHead>,
+    head: Arc<IndexHead>,
     /// Counted from 1.
     line: usize,
     /// Relative to the index.
@@ -97,7 +96,7 @@ impl Index {
         let peer = lines.iter().position(|line| is_peer(line));
         let at = peer.unwrap_or(0);
         let first = lines.get(at).copied().unwrap_or("");
-        let head = Rc::new(IndexHead::parse(path, at + 1, first)?);
+        let head = Arc::new(IndexHead::parse(path, at + 1, first)?);
         let left = lines.len().saturating_sub(at + 1);
         let mut rows = Vec::with_capacity(left.min(MOST_ROWS));
         for (text, line) in lines.iter().zip(1..).skip(at + 1) {
@@ -216,7 +215,7 @@ impl IndexHead {
     /// A row; its column `name` has the file. Windows writes `\` between folders,
     /// and reads `/` as well.
     fn row(
-        self: &Rc<Self>,
+        self: &Arc<Self>,
         line: usize,
         name: &str,
         pair: Option<String>,
@@ -226,13 +225,13 @@ impl IndexHead {
         if file.is_empty() {
             return Err(self.refuse(line, file, "the name of a file"));
         }
-        let (head, file) = (Rc::clone(self), file.replace('\\', "/"));
+        let (head, file) = (Arc::clone(self), file.replace('\\', "/"));
         Ok(IndexRow { head, line, file, pair, cells })
     }
 
     /// The two horizontal components of a row of PEER's search results.
     fn peer_rows(
-        self: &Rc<Self>,
+        self: &Arc<Self>,
         line: usize,
         cells: &[String],
     ) -> Result<Vec<IndexRow>> {

@@ -1,9 +1,12 @@
 //! Reading every record that a folder or an index lists.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::convert::identity;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
-use super::index::{self, Index};
+use rayon::prelude::*;
+
+use super::index::{self, Index, IndexRow};
 use super::pairing;
 use super::{Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember};
 use crate::direction::Direction;
@@ -15,6 +18,32 @@ use rocking::accelerogram::result_name;
 
 /// The index in a folder or archive as PEER's site delivers it.
 const PEER_RESULTS: &str = "_SearchResults.csv";
+
+/// Bytes of the files that are in memory at a time, for each thread.
+const CHUNK: usize = 1 << 19;
+
+/// How the records of a suite are read: on all threads of the caller's pool.
+pub struct Reading<'a, W = fn(SuiteMember) -> SuiteMember> {
+    /// Values of the caller.
+    pub options: &'a ReadOptions,
+    /// Whether the file of a name is read.
+    pub chosen: &'a (dyn Fn(&str) -> bool + Sync),
+    /// Work on each record, in any order.
+    pub work: W,
+}
+
+impl<'a> Reading<'a> {
+    /// Reads all files, without further work.
+    pub fn all(options: &'a ReadOptions) -> Self {
+        Self { options, chosen: &|_| true, work: identity }
+    }
+}
+
+/// The contents of a file.
+type Bytes = Result<Vec<u8>, RecordError>;
+
+/// A file that is set aside, or a fault of the suite.
+type Refused = Result<Aside, SuiteError>;
 
 /// The contents of a folder or an index, refused records included.
 ///
@@ -45,21 +74,21 @@ impl Survey {
         path: &Path,
         options: &ReadOptions,
     ) -> Result<Self, SuiteError> {
-        Self::visit(path, options, Ok)
+        Self::visit(path, &Reading::all(options), Ok)
     }
 }
 
 impl<K> Survey<K> {
     /// Reads every record of the folder or index at `path`, or the record file
-    /// there, one after the other in their order, and keeps the result of
-    /// `keep` for each.
+    /// there, and keeps the result of `keep` for each, in their order.
     ///
     /// ```
     /// use std::path::Path;
-    /// use rocking_records::{ReadOptions, SuiteError, Survey};
+    /// use rocking_records::{ReadOptions, Reading, SuiteError, Survey};
     /// let folder = Path::new("no such folder");
+    /// let options = ReadOptions::default();
     /// let mut samples = 0;
-    /// let found = Survey::visit(folder, &ReadOptions::default(), |member| {
+    /// let found = Survey::visit(folder, &Reading::all(&options), |member| {
     ///     samples += member.accelerogram.samples_g().len();
     ///     Ok::<(), SuiteError>(())
     /// });
@@ -69,15 +98,16 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if the folder or index itself cannot be read, and
     /// the first error of `keep`.
-    pub fn visit<E: From<SuiteError>>(
+    pub fn visit<T: Send, E: From<SuiteError>>(
         path: &Path,
-        options: &ReadOptions,
-        keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let shown = path.display().to_string();
         if path.is_dir() {
             let (mut files, mut others) = Default::default();
-            contents(path, "", options.recursive, &mut files, &mut others)?;
+            let recursive = reading.options.recursive;
+            contents(path, "", recursive, &mut files, &mut others)?;
             others.sort_by(|a, b| a.file.cmp(&b.file));
             let names: Vec<String> = files.keys().cloned().collect();
             let bytes = |name: &str| match files.get(name) {
@@ -85,22 +115,22 @@ impl<K> Survey<K> {
                 None => file_bytes(&path.join(name)),
             };
             let mut survey =
-                Self::of_files(&shown, &names, options, bytes, keep)?;
+                Self::of_files(&shown, &names, reading, bytes, keep)?;
             survey.set_aside.extend(others);
             return Ok(survey);
         }
-        let bytes = file_bytes(path).map_err(SuiteError::from)?;
+        let mut bytes = file_bytes(path).map_err(SuiteError::from)?;
         let base = path.parent().unwrap_or(Path::new(""));
         if !index::is_index(&bytes) && is_record(&bytes) {
             let base = base.display().to_string();
             let names = [name_of(path)];
-            let read = |_: &str| Ok(bytes.clone());
-            let survey = Self::of_files(&base, &names, options, read, keep)?;
+            let read = |_: &str| Ok(std::mem::take(&mut bytes));
+            let survey = Self::of_files(&base, &names, reading, read, keep)?;
             let name = stem(&shown).to_owned();
             return Ok(Self { path: shown, name, ..survey });
         }
         let read = |file: &str| file_bytes(&base.join(file));
-        Self::of_index(&shown, &bytes, options, read, keep)
+        Self::of_index(&shown, &bytes, reading, read, keep)
     }
 
     /// Reads every record among the files of a folder or archive, and keeps
@@ -112,14 +142,15 @@ impl<K> Survey<K> {
     /// # Errors
     /// [`SuiteError`] if an index cannot be read, and the first error of
     /// `keep`.
-    pub fn of_files<E: From<SuiteError>>(
+    pub fn of_files<T: Send, E: From<SuiteError>>(
         path: &str,
         names: &[String],
-        options: &ReadOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+        mut file_bytes: impl FnMut(&str) -> Bytes,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let mut known = BTreeSet::new();
+        let options = reading.options;
         let (names, doubled): (Vec<&String>, Vec<&String>) =
             names.iter().partition(|name| known.insert(*name));
         let mut survey;
@@ -131,39 +162,44 @@ impl<K> Survey<K> {
                 listed.insert(name.to_owned());
                 file_bytes(name)
             };
-            survey = Self::of_index(&shown, &bytes, options, read, keep)?;
+            survey = Self::of_index(&shown, &bytes, reading, read, keep)?;
             container(path).clone_into(&mut survey.name);
             for name in names.iter().filter(|name| !listed.contains(**name)) {
                 let shown = format!("{path}/{name}");
-                survey.refuse(name, Fault::Unlisted.whole(&shown));
+                let fault = Fault::Unlisted.whole(&shown);
+                survey.set_aside.extend(Aside::of(name, fault));
             }
         } else {
             survey = Self::empty(path, container(path));
-            let mut given = FallbackUse::default();
-            for name in names {
+            let read = |name: &String,
+                        text: Bytes,
+                        given: &mut FallbackUse| {
                 let shown = Path::new(path).join(name).display().to_string();
                 let shown = shown.replace(MAIN_SEPARATOR, "/");
-                let records = file_bytes(name)
-                    .and_then(|bytes| settle(&shown, &bytes, options, None));
-                let found = records.unwrap_or_else(|error| {
-                    survey.refuse(name, error);
-                    Vec::new()
-                });
                 let within = name.rsplit_once('/').map(|(within, _)| within);
                 let within = within.filter(|_| options.recursive);
-                for settled in found {
+                let refuse = |e| Aside::of(name, e).map_err(SuiteError::from);
+                let mut found = Vec::new();
+                let records = text
+                    .and_then(|b| settle(&shown, &b, options, None))
+                    .unwrap_or_else(|error| {
+                        found.push(Err(refuse(error)));
+                        Vec::new()
+                    });
+                for settled in records {
                     let record = given.see(settled);
-                    match horizontal(&shown, name, within, record) {
-                        Ok(member) => survey.members.push(Ok(keep(member)?)),
-                        Err(error) => survey.refuse(name, error),
-                    }
+                    let member = horizontal(&shown, name, within, record);
+                    found.push(member.map(&reading.work).map_err(refuse));
                 }
-            }
-            survey.members.extend(given.unused());
+                found
+            };
+            let chosen = names.into_iter().filter(|n| (reading.chosen)(n));
+            survey.add(chosen, |name| file_bytes(name), read, keep)?;
         }
         for name in doubled {
             let shown = format!("{path}/{name}");
-            survey.refuse(name, Fault::Doubled.whole(&shown));
+            let fault = Fault::Doubled.whole(&shown);
+            survey.set_aside.extend(Aside::of(name, fault));
         }
         Ok(survey)
     }
@@ -180,20 +216,52 @@ impl<K> Survey<K> {
         }
     }
 
-    /// Sets a refused file aside, or adds its error as a fault of the suite.
-    fn refuse(&mut self, name: &str, error: RecordError) {
-        match Aside::of(name, error) {
-            Ok(aside) => self.set_aside.extend([aside]),
-            Err(error) => self.members.push(Err(error.into())),
+    /// Reads files on all threads, and keeps the result of `keep` for each of
+    /// their records, in the order of the files.
+    fn add<F: Send, T: Send, E>(
+        &mut self,
+        files: impl Iterator<Item = F>,
+        mut file_bytes: impl FnMut(&F) -> Bytes,
+        read: impl Fn(F, Bytes, &mut FallbackUse) -> Vec<Result<T, Refused>> + Sync,
+        mut keep: impl FnMut(T) -> Result<K, E>,
+    ) -> Result<(), E> {
+        let work = |(file, bytes)| {
+            let mut given = FallbackUse::default();
+            (read(file, bytes, &mut given), given)
+        };
+        let mut given = FallbackUse::default();
+        let mut files = files.peekable();
+        while files.peek().is_some() {
+            let (mut chunk, mut size) = (Vec::new(), 0);
+            while size < CHUNK * rayon::current_num_threads()
+                && let Some(file) = files.next()
+            {
+                let bytes = file_bytes(&file);
+                size += bytes.as_ref().map_or(0, Vec::len);
+                chunk.push((file, bytes));
+            }
+            let chunk = chunk.into_par_iter().panic_fuse().map(work);
+            for (found, seen) in chunk.collect::<Vec<_>>() {
+                given.add(seen);
+                for member in found {
+                    match member {
+                        Ok(member) => self.members.push(Ok(keep(member)?)),
+                        Err(Ok(aside)) => self.set_aside.extend([aside]),
+                        Err(Err(error)) => self.members.push(Err(error)),
+                    }
+                }
+            }
         }
+        self.members.extend(given.unused());
+        Ok(())
     }
 
-    pub(super) fn of_index<E: From<SuiteError>>(
+    pub(super) fn of_index<T: Send, E: From<SuiteError>>(
         path: &str,
         bytes: &[u8],
-        options: &ReadOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-        mut keep: impl FnMut(SuiteMember) -> Result<K, E>,
+        reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+        mut file_bytes: impl FnMut(&str) -> Bytes,
+        keep: impl FnMut(T) -> Result<K, E>,
     ) -> Result<Self, E> {
         let Index { rows, paired, study_rule } = Index::parse(path, bytes)?;
         // PEER's index has the name of its folder.
@@ -201,18 +269,16 @@ impl<K> Survey<K> {
         let name = folder.filter(|folder| !folder.is_empty());
         let empty = Self::empty(path, name.unwrap_or(stem(path)));
         let mut survey = Self { paired, study_rule, ..empty };
-        let mut given = FallbackUse::default();
-        for row in rows {
-            let bytes = file_bytes(&row.file).map_err(SuiteError::from);
-            let member = bytes.and_then(|bytes| {
-                row.member(&bytes, options, |settled| given.see(settled))
-            });
-            survey.members.push(match member {
-                Ok(member) => Ok(keep(member)?),
-                Err(error) => Err(error),
-            });
-        }
-        survey.members.extend(given.unused());
+        let read = |row: IndexRow, bytes: Bytes, given: &mut FallbackUse| {
+            let see = |settled| given.see(settled);
+            let found = bytes.map_err(SuiteError::from);
+            let found =
+                found.and_then(|b| row.member(&b, reading.options, see));
+            vec![found.map(&reading.work).map_err(Err)]
+        };
+        let chosen =
+            rows.into_iter().filter(|row| (reading.chosen)(&row.file));
+        survey.add(chosen, |row| file_bytes(&row.file), read, keep)?;
         Ok(survey)
     }
 }
@@ -254,11 +320,16 @@ struct FallbackUse {
 impl FallbackUse {
     fn see(&mut self, settled: Agreement) -> Record {
         let Agreement { record, dt, unit } = settled;
-        self.taken.dt |= record.given.dt;
-        self.taken.unit |= record.given.unit;
-        self.dt = self.dt.take().or(dt.err());
-        self.unit = self.unit.take().or(unit.err());
+        self.add(Self { taken: record.given, dt: dt.err(), unit: unit.err() });
         record
+    }
+
+    /// Adds the use in later files.
+    fn add(&mut self, later: Self) {
+        self.taken.dt |= later.taken.dt;
+        self.taken.unit |= later.taken.unit;
+        self.dt = self.dt.take().or(later.dt);
+        self.unit = self.unit.take().or(later.unit);
     }
 
     /// The first contradiction of each value that no file took.

@@ -227,7 +227,8 @@ fn smc_components_are_known_by_their_header() {
         let file = files.iter().find(|f| f.0 == stem).unwrap();
         Ok(text(file.1, file.2).into_bytes())
     };
-    let survey = Survey::of_files("d", &names, &options, bytes, KEEP);
+    let survey =
+        Survey::of_files("d", &names, &Reading::all(&options), bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     let kept: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
     assert_eq!(kept, ["0111a.smc", "0111c.smc", "0112_UP.smc"]);
@@ -264,7 +265,9 @@ fn of_a_kiknet_station_the_two_surface_components_make_a_suite() {
         Ok(file.1.clone().into_bytes())
     };
     let options = ReadOptions::default();
-    let survey = Survey::of_files("d", &names, &options, bytes, KEEP).unwrap();
+    let survey =
+        Survey::of_files("d", &names, &Reading::all(&options), bytes, KEEP)
+            .unwrap();
     let aside: Vec<_> = survey
         .set_aside
         .all()
@@ -310,7 +313,13 @@ fn a_suite_has_the_name_of_its_folder_or_file() {
         ("x/M6.5_0917/", "M6.5_0917"),
         ("x/peer.v2.zip", "peer.v2"),
     ] {
-        let survey = Survey::of_files(path, &names, &options, bytes, KEEP);
+        let survey = Survey::of_files(
+            path,
+            &names,
+            &Reading::all(&options),
+            bytes,
+            KEEP,
+        );
         assert_eq!(survey.unwrap().into_suite().unwrap().name(), name);
     }
     for (path, name) in
@@ -338,7 +347,8 @@ fn at2_components_are_known_by_their_header() {
     let bytes = |name: &str| {
         Ok(text(if name == "d.AT2" { "UP" } else { "90" }).into_bytes())
     };
-    let survey = Survey::of_files("f", &names, &options, bytes, KEEP);
+    let survey =
+        Survey::of_files("f", &names, &Reading::all(&options), bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     assert_eq!(suite.members().len(), 1);
     assert_eq!(suite.members()[0].file, "e.AT2");
@@ -419,7 +429,7 @@ fn what_is_given_is_for_files_that_state_none() {
             Ok(found.unwrap().1.as_bytes().to_vec())
         };
         let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
-        Survey::of_files("f", &names, &options, bytes, KEEP)
+        Survey::of_files("f", &names, &Reading::all(&options), bytes, KEEP)
             .and_then(Survey::into_suite)
             .map_err(|error| error.to_string())
     };

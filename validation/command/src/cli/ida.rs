@@ -33,7 +33,7 @@ use super::way::WayArgs;
 use crate::failure::{Failure, ensure};
 use crate::terminal::{SOFTWARE, logged, progress};
 use rocking_common::files::{Output, Outputs};
-use rocking_common::suites::inputs::{BLOCK_SAMPLES, files, profiles, reread};
+use rocking_common::suites::inputs::{BLOCK_SAMPLES, SuiteInput, files};
 use rocking_common::suites::remarks::Remarks;
 use rocking_common::suites::{clusters, earthquakes};
 use rocking_common::table::body;
@@ -151,8 +151,9 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     args.way.way()?;
     let read = args.input.reading.options(gravity_m_s2);
     let processing = args.input.processing()?;
-    let suite: Suite<Profile> =
-        profiles::<Failure>(&args.suite, read, &processing)?;
+    let (place, block) = (&args.suite, args.block_samples);
+    let (input, suite) =
+        SuiteInput::read::<Failure>(place, read, &processing, block)?;
     let mut outputs = Outputs::of(files(&args.suite, &suite));
     let out = outputs.open(&args.out)?;
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
@@ -189,7 +190,7 @@ fn in_threads(args: &IdaCommand) -> Result<(), Failure> {
     };
     let mut block = Vec::new();
     let mut samples = 0;
-    reread(&args.suite, read, &processing, &chosen, |record, _| {
+    input.each(&chosen, |record, _| {
         samples += record.samples_g().len();
         block.push(NormalisedRecord::new(record));
         if samples < args.block_samples {

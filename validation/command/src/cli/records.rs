@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use indexmap::IndexMap;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_records::{
-    Fallback, Fault, ReadOptions, RecordError, RemarkInput, SetAside, Suite,
-    SuiteError, SuiteMember,
+    Fallback, Fault, ReadOptions, Reading, RecordError, RemarkInput, SetAside,
+    Suite, SuiteError, SuiteMember,
 };
 use serde::Serialize;
 
@@ -322,7 +322,8 @@ impl RecordsListing {
     }
 
     fn add_survey(&mut self, path: &Path) -> Result<(), RecordFinding> {
-        let survey = inputs::visit(path, self.options, Ok::<_, SuiteError>)?;
+        let reading = Reading::all(&self.options);
+        let survey = inputs::visit(path, &reading, Ok::<_, SuiteError>)?;
         self.set_aside.extend(survey.set_aside.all().iter().cloned());
         if survey.members.iter().all(Result::is_ok) {
             self.add_suite(path, &survey.into_suite()?);

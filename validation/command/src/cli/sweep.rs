@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_records::{Processing, Profile, Suite};
+use rocking_records::Processing;
 
 use super::reading::ReadArgs;
 use super::shared::{ThreadsArg, positive};
@@ -17,7 +17,7 @@ use crate::sweep::{
 };
 use crate::terminal::{SOFTWARE, note, say};
 use crate::threads::{until, with_threads};
-use rocking_common::suites::inputs::profiles;
+use rocking_common::suites::inputs::{BLOCK_SAMPLES, SuiteInput};
 use rocking_common::suites::remarks::Remarks;
 
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
@@ -174,8 +174,9 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
     let blocks: Vec<SweepBlock> =
         rows.into_iter().map(given).collect::<Result<_, _>>()?;
     let read = args.reading.options(STANDARD_GRAVITY_M_S2);
-    let suite: Suite<Profile> =
-        profiles::<Failure>(&args.suite, read, &Processing::default())?;
+    let none = Processing::default();
+    let (input, suite) =
+        SuiteInput::read::<Failure>(&args.suite, read, &none, BLOCK_SAMPLES)?;
     args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
     let by_default =
         TILE_CURVES.div_ceil(suite.study_components().count().max(1));
@@ -192,7 +193,7 @@ fn plan(args: &SweepPlanCommand) -> Result<(), Failure> {
         events: Vec::new(),
         tile_blocks: args.tile_blocks.unwrap_or(by_default),
     };
-    let planned = plan.write(&suite, (&args.suite, read), &args.out)?;
+    let planned = plan.write(&suite, input, &args.out)?;
     let plan = &planned.plan;
     let set_aside = match suite.set_aside() {
         none if none.is_empty() => String::new(),

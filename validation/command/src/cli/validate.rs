@@ -10,7 +10,7 @@ use rocking_procedures::shaking::{
 };
 use rocking_procedures::shaking_table::{FATE_COLUMN, TestTable};
 use rocking_records::intensity::IntensityMeasure as M;
-use rocking_records::{RemarkInput, SuiteError};
+use rocking_records::{Reading, RemarkInput, SuiteError};
 
 use super::names;
 use super::processing::{RecordArgs, words};
@@ -151,7 +151,8 @@ impl ValidateCommand {
     /// The tests, and the remarks on their motions.
     fn tests(&self) -> Result<(Vec<ShakingTest>, Remarks), Failure> {
         let options = self.input.reading.options(self.gravity);
-        let survey = visit(&self.tests, options, Ok::<_, SuiteError>)?;
+        let reading = Reading::all(&options);
+        let survey = visit(&self.tests, &reading, Ok::<_, SuiteError>)?;
         let members = survey.members.iter().flatten();
         let remarks = members.map(RemarkInput::from).collect::<Vec<_>>();
         let remarks = Remarks::of(&remarks);

@@ -7,7 +7,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, REFINEMENT};
 use rocking_exchange::Id;
-use rocking_records::{Processing, Profile, ReadOptions, Suite, read};
+use rocking_records::{Profile, ReadOptions, Suite, read};
 use rocking_statistics::Clusters;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ use crate::failure::{AtPlace as _, Failure, ensure};
 use crate::input;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
-use rocking_common::suites::inputs::{BLOCK_SAMPLES, reread, sha256_hex};
+use rocking_common::suites::inputs::{BLOCK_SAMPLES, SuiteInput, sha256_hex};
 
 mod check;
 
@@ -101,8 +101,8 @@ pub struct SweepFolder {
 }
 
 impl SweepPlan {
-    /// Writes a plan without records and packs the suite, which is read from
-    /// a place, into its folder.
+    /// Writes a plan without records and packs the suite, whose records are
+    /// in `input`, into its folder.
     ///
     /// # Errors
     /// [`Failure`] for a repeated block or demand, if the folder has another
@@ -111,7 +111,7 @@ impl SweepPlan {
     pub fn write(
         mut self,
         suite: &Suite<Profile>,
-        (place, read): (&Path, ReadOptions),
+        input: SuiteInput<'_>,
         folder: &Path,
     ) -> Result<SweepFolder, Failure> {
         let members: Vec<_> = suite.study_components().collect();
@@ -136,8 +136,7 @@ impl SweepPlan {
         let event = members.iter().any(|member| member.event.is_some());
         let own = own.map(|(name, _)| &**name).chain(event.then_some("event"));
         let mut packing = export::Packing::new(SUITE, own);
-        let none = Processing::default();
-        reread(place, read, &none, &members, |motion, member| {
+        input.each(&members, |motion, member| {
             let row = export::member_of(motion, member);
             let (path, text) = packing.add(&row)?;
             let sum = sha256_hex(text.as_bytes());

@@ -3,15 +3,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use rocking::stop::{Stop, StopError};
-use rocking_records::{Processing, Profile, ReadOptions, Suite};
+use rocking_records::{Processing, ReadOptions};
 
 use super::tile::{TileState, read};
 use super::*;
 use crate::failure::Failure;
-use rocking_common::suites::inputs::{profiles, sha256_hex};
+use rocking_common::suites::inputs::{SuiteInput, sha256_hex};
 
 /// A suite of three half sines in a folder.
-fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
+fn suite(folder: &Path) -> (PathBuf, ReadOptions) {
     let place = folder.join("records");
     fs::create_dir_all(&place).unwrap();
     for (name, scale) in [("a", 0.4), ("b", 0.6), ("c", 0.9)] {
@@ -27,8 +27,7 @@ fn suite(folder: &Path) -> (Suite<Profile>, PathBuf, ReadOptions) {
         gravity_m_s2: 9.81,
         ..ReadOptions::default()
     };
-    let suite = profiles::<Failure>(&place, read, &Processing::default());
-    (suite.unwrap(), place, read)
+    (place, read)
 }
 
 fn plan(folder: &Path, tile_blocks: usize) -> SweepFolder {
@@ -42,7 +41,9 @@ fn plan(folder: &Path, tile_blocks: usize) -> SweepFolder {
             eta: 0.92,
         })
         .collect();
-    let (suite, place, read) = suite(folder);
+    let ((place, read), none) = (suite(folder), Processing::default());
+    let (input, suite) =
+        SuiteInput::read::<Failure>(&place, read, &none, 0).unwrap();
     let plan = SweepPlan {
         schema: SCHEMA,
         software: BUILD.into(),
@@ -54,7 +55,7 @@ fn plan(folder: &Path, tile_blocks: usize) -> SweepFolder {
         events: Vec::new(),
         tile_blocks,
     };
-    plan.write(&suite, (&place, read), &folder.join("plan")).unwrap()
+    plan.write(&suite, input, &folder.join("plan")).unwrap()
 }
 
 /// The program of all plans and tiles here.

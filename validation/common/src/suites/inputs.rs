@@ -1,6 +1,6 @@
 //! Suites from files and zips, checksums included.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use rocking::accelerogram::Accelerogram;
 pub use rocking_records::sha256_hex;
 use rocking_records::{
     Fault, MemberMotion, Processing, ProcessingError, Profile, ReadOptions,
-    Suite, SuiteError, SuiteMember, Survey,
+    Reading, Suite, SuiteError, SuiteMember, Survey,
 };
 use zip::ZipArchive;
 
@@ -32,6 +32,9 @@ const INDEX_PART: u64 = 12;
 /// records of one block and their curves at a time, however large the suite is.
 pub const BLOCK_SAMPLES: usize = 1 << 22;
 
+/// A suite of at most this number of blocks stays in memory as it is read.
+const KEPT_BLOCKS: usize = 3;
+
 /// Reads the suite at `path`: a folder, an index, or a zip of either.
 ///
 /// # Errors
@@ -40,57 +43,95 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    visit(path, read, Ok).and_then(Survey::into_suite)
+    visit(path, &Reading::all(&read), Ok).and_then(Survey::into_suite)
 }
 
-/// Reads the suite at `path` and keeps the profiles of its records. The samples
-/// stay in their files; [`reread`] reads them.
-///
-/// # Errors
-/// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
-/// processed.
-pub fn profiles<E: From<SuiteError> + From<ProcessingError>>(
-    path: &Path,
-    read: ReadOptions,
-    processing: &Processing,
-) -> Result<Suite<Profile>, E> {
-    let survey = visit(path, read, |mut member| {
-        member.accelerogram = processing.apply(&member.accelerogram)?;
-        Ok::<_, E>(member.into_profile())
-    })?;
-    Ok(survey.into_suite()?)
+/// A suite whose records are worked off one after the other.
+pub struct SuiteInput<'a> {
+    path: &'a Path,
+    options: ReadOptions,
+    processing: &'a Processing,
+    /// The records, if the suite is small. The samples of a larger suite stay
+    /// in their files.
+    kept: Option<BTreeMap<String, Accelerogram>>,
 }
 
-/// Reads the records of `chosen`, members of the suite of [`profiles`], again one
-/// after the other, and passes them to `each`.
-///
-/// # Errors
-/// As [`profiles`]; [`SuiteError::Changed`] for a record that has changed;
-/// the first error of `each`.
-pub fn reread<E: From<SuiteError> + From<ProcessingError>>(
-    path: &Path,
-    read: ReadOptions,
-    processing: &Processing,
-    chosen: &[&SuiteMember<Profile>],
-    mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
-) -> Result<(), E> {
-    let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
-        path: path.display().to_string(),
-        name: expected.accelerogram.name().to_owned(),
-    };
-    let mut left = chosen.iter().peekable();
-    visit(path, read, |SuiteMember { accelerogram: record, .. }| {
-        let is_it = |m: &&&SuiteMember<Profile>| {
-            m.accelerogram.name() == record.name()
-        };
-        let Some(expected) = left.next_if(is_it) else { return Ok(()) };
-        let record = processing.apply(&record)?;
-        if Profile::of(&record) != expected.accelerogram {
-            return Err(changed(expected).into());
+impl<'a> SuiteInput<'a> {
+    /// Reads the suite at `path`, which is worked off in blocks of about
+    /// `block_samples` samples.
+    ///
+    /// # Errors
+    /// As [`Suite::read`], and [`ProcessingError`] for a record that cannot be
+    /// processed.
+    pub fn read<E: From<SuiteError> + From<ProcessingError>>(
+        path: &'a Path,
+        options: ReadOptions,
+        processing: &'a Processing,
+        block_samples: usize,
+    ) -> Result<(Self, Suite<Profile>), E> {
+        let most = block_samples.saturating_mul(KEPT_BLOCKS);
+        let (mut kept, mut samples) = (BTreeMap::new(), 0);
+        let mut input = Self { path, options, processing, kept: None };
+        let survey = input.visit(&|_| true, |(member, record)| {
+            samples += record.samples_g().len();
+            kept.insert(record.name().to_owned(), record);
+            if samples > most {
+                kept.clear();
+            }
+            Ok::<_, E>(member)
+        })?;
+        input.kept = (samples <= most).then_some(kept);
+        Ok((input, survey.into_suite()?))
+    }
+
+    /// Passes the records of `chosen`, members of the suite, to `each`, one
+    /// after the other. Their files are read again if the suite is large.
+    ///
+    /// # Errors
+    /// As [`SuiteInput::read`]; [`SuiteError::Changed`] for a record that has
+    /// changed; the first error of `each`.
+    pub fn each<E: From<SuiteError> + From<ProcessingError>>(
+        self,
+        chosen: &[&SuiteMember<Profile>],
+        mut each: impl FnMut(&Accelerogram, &SuiteMember<Profile>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if let Some(kept) = self.kept {
+            let record =
+                |m: &SuiteMember<Profile>| &kept[m.accelerogram.name()];
+            return chosen.iter().try_for_each(|m| each(record(m), m));
         }
-        each(&record, expected)
-    })?;
-    left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
+        let changed = |expected: &SuiteMember<Profile>| SuiteError::Changed {
+            path: self.path.display().to_string(),
+            name: expected.accelerogram.name().to_owned(),
+        };
+        let files: BTreeSet<&str> = chosen.iter().map(|m| &*m.file).collect();
+        let mut left = chosen.iter().peekable();
+        self.visit(&|file| files.contains(file), |(found, record)| {
+            let found = found.accelerogram;
+            match left.next_if(|m| m.accelerogram.name() == found.name()) {
+                Some(m) if m.accelerogram != found => Err(changed(m).into()),
+                Some(member) => each(&record, member),
+                None => Ok(()),
+            }
+        })?;
+        left.next().map_or(Ok(()), |expected| Err(changed(expected).into()))
+    }
+
+    /// Reads and processes the records of the `chosen` files, and keeps the
+    /// result of `keep` for each.
+    fn visit<K, E: From<SuiteError> + From<ProcessingError>>(
+        &self,
+        chosen: &(dyn Fn(&str) -> bool + Sync),
+        mut keep: impl FnMut((SuiteMember<Profile>, Accelerogram)) -> Result<K, E>,
+    ) -> Result<Survey<K>, E> {
+        let work = |mut member: SuiteMember| {
+            member.accelerogram =
+                self.processing.apply(&member.accelerogram)?;
+            Ok::<_, ProcessingError>(member.into_profile())
+        };
+        let reading = Reading { options: &self.options, chosen, work };
+        visit(self.path, &reading, |found| keep(found?))
+    }
 }
 
 /// The files of the suite that was read from `path`.
@@ -103,22 +144,22 @@ pub fn files<M: MemberMotion>(path: &Path, suite: &Suite<M>) -> Vec<PathBuf> {
     std::iter::once(path.to_owned()).chain(members).collect()
 }
 
-/// Reads every record of the folder, index or zip at `path`, checksums included,
+/// Reads the records of the folder, index or zip at `path`, checksums included,
 /// and keeps the result of `keep` for each.
 ///
 /// # Errors
 /// As [`Survey::visit`]; [`SuiteError::Unreadable`] for a damaged zip.
-pub fn visit<K, E: From<SuiteError>>(
+pub fn visit<T: Send, K, E: From<SuiteError>>(
     path: &Path,
-    read: ReadOptions,
-    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+    keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     if path.is_dir() || !is_zip(path) {
-        return Survey::visit(path, &read, keep);
+        return Survey::visit(path, reading, keep);
     }
     let shown = path.display().to_string();
     let file = File::open(path).map_err(unreadable(&shown))?;
-    visit_zip(&shown, file, &read, keep)
+    visit_zip(&shown, file, reading, keep)
 }
 
 /// The error for a reason why the suite at `shown` cannot be read.
@@ -139,11 +180,11 @@ fn unreadable<E: ToString>(shown: &str) -> impl Fn(E) -> SuiteError {
 ///
 /// # Errors
 /// As [`visit`].
-pub fn visit_zip<K, E: From<SuiteError>>(
+pub fn visit_zip<T: Send, K, E: From<SuiteError>>(
     shown: &str,
     mut archive: impl Read + Seek,
-    options: &ReadOptions,
-    keep: impl FnMut(SuiteMember) -> Result<K, E>,
+    reading: &Reading<'_, impl Fn(SuiteMember) -> T + Sync>,
+    keep: impl FnMut(T) -> Result<K, E>,
 ) -> Result<Survey<K>, E> {
     let size = archive.seek(SeekFrom::End(0)).map_err(unreadable(shown))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
@@ -165,7 +206,7 @@ pub fn visit_zip<K, E: From<SuiteError>>(
             Fault::Unreadable(reason).whole(&format!("{shown}/{name}"))
         })
     };
-    Survey::of_files(shown, &names, options, unpacked, keep)
+    Survey::of_files(shown, &names, reading, unpacked, keep)
 }
 
 /// An archive of `size` bytes, and the names of its files.
@@ -338,6 +379,7 @@ mod tests {
         let read =
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let visit = |bytes: &[u8]| {
+            let read = Reading::all(&read);
             let keep = Ok::<_, SuiteError>;
             let found = visit_zip("x.zip", Cursor::new(bytes), &read, keep);
             found.map(|_| ()).map_err(|error| error.to_string())
@@ -366,12 +408,21 @@ mod tests {
             ReadOptions { dt_s: Some(0.01), unit, ..ReadOptions::default() };
         let none = Processing::default();
         let path = place.path();
-        let suite = profiles::<anyhow::Error>(path, read, &none).unwrap();
+        let open = |block_samples| {
+            SuiteInput::read::<anyhow::Error>(path, read, &none, block_samples)
+        };
+        let suite = open(0).unwrap().1;
         let members: Vec<_> = suite.members().iter().collect();
         let again = || {
             let mut names = Vec::new();
+            let large = SuiteInput {
+                path,
+                options: read,
+                processing: &none,
+                kept: None,
+            };
             let done: anyhow::Result<()> =
-                reread(path, read, &none, &members, |record, member| {
+                large.each(&members, |record, member| {
                     assert_eq!(member.file, format!("{}.txt", record.name()));
                     names.push(record.name().to_owned());
                     Ok(())

@@ -7,7 +7,7 @@ use rocking::block::Block;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking_records::intensity::{Measures, Settings};
-use rocking_records::{Processing, ReadOptions, Suite, SuiteError};
+use rocking_records::{Processing, ReadOptions, Reading, Suite, SuiteError};
 
 use super::answer::{Rows, StudyAnswer, number, word};
 use crate::results::StudyResults;
@@ -30,7 +30,7 @@ pub fn ridgecrest() -> anyhow::Result<Suite> {
     let survey = inputs::visit_zip(
         "ridgecrest.zip",
         archive,
-        &options,
+        &Reading::all(&options),
         Ok::<_, SuiteError>,
     )?;
     Ok(survey.into_suite()?)

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::*;
-use crate::{ReadOptions, Suite, SuiteError, SuiteMember, Survey};
+use crate::{ReadOptions, Reading, Suite, SuiteError, SuiteMember, Survey};
 
 /// Keeps all of a record.
 const KEEP: fn(SuiteMember) -> Result<SuiteMember, SuiteError> = Ok;
@@ -89,7 +89,8 @@ fn of_a_doubled_name_one_file_is_read_and_the_other_reported() {
     let names = ["a.AT2", "b.AT2", "b.AT2"].map(str::to_owned);
     let options = ReadOptions::default();
     let bytes = |_: &str| Ok(at2("90").into_bytes());
-    let survey = Survey::of_files("z", &names, &options, bytes, KEEP);
+    let survey =
+        Survey::of_files("z", &names, &Reading::all(&options), bytes, KEEP);
     let suite = survey.unwrap().into_suite().unwrap();
     assert_eq!(suite.members().len(), 2);
     let [count] = suite.set_aside().counts()[..] else { panic!() };

@@ -40,13 +40,61 @@ class Explanation(Result):
 
 
 @dataclass(frozen=True)
+class CommonFactor(Result):
+    """The factor between the answers of a group and the certified values."""
+
+    constant: float
+    kind: Literal[
+        "constant", "alpha", "1/alpha", "p", "1/p", "1/(alpha p)", "sign"
+    ]
+    """What the constant is multiplied by."""
+
+
+@dataclass(frozen=True)
+class GroupDeviation(Result):
+    """A group of answers of which some deviate."""
+
+    group: str
+    answered: int
+    deviating: int
+    median_error: float | None
+    """Median of the relative errors of the numbers that deviate."""
+    largest_error: float | None
+    factor: CommonFactor | None
+
+
+@dataclass(frozen=True)
+class Grouping(Result):
+    """The deviating answers, grouped by one property."""
+
+    by: Literal[
+        "dimension", "quantity", "motion", "excitation", "equation", "scene"
+    ]
+    gain: float
+    """Gain in log-likelihood: the larger, the more the property explains."""
+    groups: tuple[GroupDeviation, ...]
+    """The largest shares first."""
+    others: int
+    """Number of answers in groups without deviating answers."""
+    others_digits: float
+    """Digits to which these agree at a condition of 1, 15 at most."""
+
+
+@dataclass(frozen=True)
 class Diagnosis(Result):
     """The fault of a code."""
 
-    verdict: Literal["none", "known", "unknown", "too-few"]
+    verdict: Literal["none", "known", "coarse", "unknown", "too-few"]
     explanations: tuple[Explanation, ...]
     """Several if the answers cannot distinguish them."""
     scatter: float | None
+    growth: float | None
+    """Power of the condition with which the scatter grows."""
+    within: float | None
+    """Largest relative error of 99 % of the answers of a coarse code, at a
+    condition of 1."""
+    deviations: tuple[Grouping, ...]
+    """What deviates for an unknown reason; the first explains most."""
 
 
 @dataclass(frozen=True)

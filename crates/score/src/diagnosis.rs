@@ -7,34 +7,23 @@
 //! heavy-tailed Cauchy distribution, with the `s` and the `n` (0, 1/2 or 1)
 //! that suit the hypothesis best.
 
+use rocking_exchange::table::digits;
 use serde::Serialize;
 
 use crate::answers::Answers;
-use crate::reference::{INPUTS, Item, SceneExcitation, Value, reference};
+use crate::deviations::{Grouping, within};
+use crate::reference::{INPUTS, Value, reference};
+use crate::residual::{
+    AGREE, BEYOND, COARSEST, LEFT, Residual, SHARE, Scatter, TIE, apart, given,
+};
 
 /// The fewest numbers for a diagnosis.
 const FEWEST: usize = 12;
 /// Required gain in log-likelihood of a mistake over no mistake.
 const GAIN: f64 = 20.0;
-/// Difference in log-likelihood up to which two hypotheses are not
-/// distinguished.
-const TIE: f64 = 6.0;
-/// Share of the deviating answers that a mistake must explain.
-const SHARE: f64 = 0.9;
-/// Largest part of an explained deviation that may be left.
-const LEFT: f64 = 0.4;
-/// Multiple of the scatter beyond which an answer deviates.
-const BEYOND: f64 = 10.0;
-/// Largest scatter of explained answers.
-const COARSEST: f64 = 1e-2;
-/// Largest relative error of a right code, at a condition of 1.
-const RIGHT: f64 = 1e-3;
 /// Largest product of a factor less one and a condition for which an answer
 /// moves along a straight line.
 const STRAIGHT: f64 = 0.3;
-/// Share of the answers that must have at most this error if no mistake is
-/// found.
-const AGREE: f64 = 0.99;
 /// Scatters that are tried, from the precision of the wrong models' values up.
 const SCATTERS: std::ops::Range<i32> = -36..0;
 /// Powers of the condition with which the scatter may grow.
@@ -50,6 +39,45 @@ pub struct Diagnosis {
     /// Relative scatter of the answers around the explanation, or around the
     /// certified values, at a condition of 1.
     pub scatter: Option<f64>,
+    /// Power of the condition with which the scatter grows.
+    pub growth: Option<f64>,
+    /// Largest relative error of 99 % of the answers of a coarse code, at a
+    /// condition of 1.
+    pub within: Option<f64>,
+    /// The answers that deviate for an unknown reason, in one grouping after
+    /// another; the first explains most.
+    pub deviations: Vec<Grouping>,
+}
+
+impl Diagnosis {
+    fn new(verdict: CodeVerdict, scatter: Option<Scatter>) -> Self {
+        Self {
+            verdict,
+            explanations: Vec::new(),
+            scatter: scatter.map(|scatter| scatter.0),
+            growth: scatter.map(|scatter| scatter.1),
+            within: None,
+            deviations: Vec::new(),
+        }
+    }
+
+    /// What is coarse or deviates; no sentence for other verdicts.
+    pub fn sentences(&self) -> Vec<String> {
+        let coarse = self.within.map(|within| {
+            let growth = match self.growth {
+                Some(0.5) => " times the square root of the condition",
+                Some(1.0) => " times the condition",
+                _ => "",
+            };
+            let percent = digits(100.0 * within, 2);
+            format!(
+                "99 % of the answers are right within {percent} %{growth}; no \
+                 quantity, excitation, equation or scene is an exception."
+            )
+        });
+        let first = self.deviations.first().map(Grouping::sentences);
+        coarse.into_iter().chain(first.into_iter().flatten()).collect()
+    }
 }
 
 /// The verdict on a code.
@@ -60,6 +88,8 @@ pub enum CodeVerdict {
     None,
     /// One of the known mistakes explains the answers.
     Known,
+    /// The answers are right within a scatter that is large.
+    Coarse,
     /// No known mistake explains the answers.
     Unknown,
     /// Too few answers for a verdict.
@@ -97,31 +127,6 @@ fn mistake(name: &str) -> Mistake {
     Mistake { name: name.to_owned(), what, look_at }
 }
 
-/// An answer with its error and its condition.
-#[derive(Clone)]
-struct Residual {
-    item: &'static Item,
-    value: Value,
-    condition: f64,
-    /// Error of the answer over the certified value.
-    error: f64,
-}
-
-/// Relative distance of two values, 1 at most; 1 if the second is missing.
-///
-/// Two counts above the certified count have no distance: if a block comes to
-/// rest too soon, its impacts are infinitely many, and a code stops somewhere.
-fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
-    use Value::{Count, Number};
-    match (a, b, &item.value) {
-        (Number(a), Some(Number(b)), Number(unit)) => {
-            ((a - b) / unit).abs().min(1.0)
-        }
-        (Count(a), Some(Count(b)), Count(due)) if a > due && b > due => 0.0,
-        _ => f64::from(u8::from(Some(a) != b)),
-    }
-}
-
 /// A hypothesis, by its distances from the answers and the certified values.
 struct Hypothesis {
     /// Distance of each answer from its prediction.
@@ -131,11 +136,6 @@ struct Hypothesis {
     scatter: Scatter,
     likelihood: f64,
 }
-
-/// Scatter of answers: at a condition of 1, and the power of the condition
-/// with which it grows.
-#[derive(Clone, Copy)]
-struct Scatter(f64, f64);
 
 impl Hypothesis {
     fn new(given: &[Residual], left: Vec<f64>, moved: Vec<f64>) -> Self {
@@ -191,49 +191,13 @@ impl Hypothesis {
     }
 }
 
-impl Residual {
-    /// Derivative of the value by an input. A release has no ground motion
-    /// whose size could be wrong.
-    fn rate(&self, input: usize) -> f64 {
-        let scene = reference().scene(self.item);
-        let still = matches!(scene.excitation, SceneExcitation::Free);
-        let size = INPUTS[input] == "size";
-        if size && still { 0.0 } else { self.item.rates[input] }
-    }
-
-    fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
-        scatter * libm::pow(self.condition, power)
-    }
-}
-
-/// The answers with their conditions. An outcome or a count has the largest
-/// condition of its scene.
-fn given(answers: &Answers) -> Vec<Residual> {
-    let set = reference();
-    let mut worst = vec![1.0_f64; set.scenes.len()];
-    for item in &set.items {
-        worst[item.scene] = worst[item.scene].max(item.condition);
-    }
-    let items = set.items.iter().enumerate();
-    let found = items.filter_map(|(place, item)| {
-        let value = answers.get(place)?.clone();
-        let own = item.condition.max(1.0);
-        let whole = value.number().is_none();
-        let condition = if whole { worst[item.scene] } else { own };
-        let error = apart(item, &value, Some(&item.value));
-        Some(Residual { item, value, condition, error })
-    });
-    found.collect()
-}
-
 /// Finds the mistake that explains the answers, if any; mistakes in `withheld`
 /// are not considered.
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());
     if numbers.count() < FEWEST {
-        let (verdict, explanations) = (CodeVerdict::TooFew, Vec::new());
-        return Diagnosis { verdict, explanations, scatter: None };
+        return Diagnosis::new(CodeVerdict::TooFew, None);
     }
     let none = Hypothesis::none(&given);
     let known = models(&given, withheld, none.likelihood + GAIN);
@@ -244,21 +208,21 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
             let mistakes = names.iter().map(|name| mistake(name)).collect();
             Explanation { mistakes, factor: *factor, deviating, explained }
         });
-        return Diagnosis {
-            verdict: CodeVerdict::Known,
-            explanations: explanations.collect(),
-            scatter: Some(first.scatter.0),
-        };
+        let known = Diagnosis::new(CodeVerdict::Known, Some(first.scatter));
+        return Diagnosis { explanations: explanations.collect(), ..known };
     }
-    let right = given
-        .iter()
-        .filter(|g| g.error <= g.allowed(Scatter(RIGHT, 0.5)))
-        .count();
-    let agrees = right as f64 >= AGREE * given.len() as f64;
-    let verdict =
-        if agrees { CodeVerdict::None } else { CodeVerdict::Unknown };
-    let scatter = Some(none.scatter.0);
-    Diagnosis { verdict, explanations: Vec::new(), scatter }
+    let right = given.iter().filter(|g| !g.deviates()).count();
+    if right as f64 >= AGREE * given.len() as f64 {
+        return Diagnosis::new(CodeVerdict::None, Some(none.scatter));
+    }
+    let errors = given.iter().map(Residual::full).collect();
+    let coarse = Hypothesis::new(&given, errors, Vec::new()).scatter;
+    if let Some(within) = within(&given, coarse.1) {
+        let coarse = Diagnosis::new(CodeVerdict::Coarse, Some(coarse));
+        return Diagnosis { within: Some(within), ..coarse };
+    }
+    let unknown = Diagnosis::new(CodeVerdict::Unknown, Some(none.scatter));
+    Diagnosis { deviations: Grouping::all(&given), ..unknown }
 }
 
 /// A hypothesis with its names and its factor.

@@ -18,12 +18,17 @@
 #![deny(missing_docs)]
 
 mod answers;
+mod deviations;
 mod diagnosis;
 mod own;
 mod reference;
+mod residual;
 mod score;
 
 pub use answers::Answers;
+pub use deviations::{
+    CommonFactor, FactorKind, GroupDeviation, GroupedBy, Grouping,
+};
 pub use diagnosis::{CodeVerdict, Diagnosis, Explanation, Mistake, diagnose};
 pub use own::{OwnResponse, answers_of, own_answers};
 pub use reference::{

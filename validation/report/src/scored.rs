@@ -268,6 +268,9 @@ fn diagnosis(score: &Score) -> Markup {
                 "The cause is not among the known mistakes: no single one, and \
                  no pair that was tried, explains the answers."
             }
+            CodeVerdict::Coarse => p {
+                "None of the known mistakes: the answers are right, but coarse."
+            }
             CodeVerdict::TooFew => p { "Too few answers for a verdict." }
             CodeVerdict::Known => {
                 @if found.explanations.len() > 1 {
@@ -284,6 +287,7 @@ fn diagnosis(score: &Score) -> Markup {
                 p { "Relative scatter about the explanation: " (scatter) "." }
             }
         }
+        @for sentence in found.sentences() { p { (sentence) } }
     }
 }
 

@@ -18,7 +18,10 @@ use crate::input;
 /// the relative error, up to the limit of double precision. The diagnosis
 /// compares all answers with those of 34 wrong models and 15 pairs of them. It
 /// names the mistake that explains the answers, or several that these answers
-/// cannot distinguish, or reports that there is no mistake or an unknown one.
+/// cannot distinguish. Otherwise it reports that the answers are right, right
+/// but coarse, or wrong for an unknown reason: then it gives the quantities,
+/// excitations, equations or scenes that deviate, and their factor if they have
+/// one in common.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking score answers.csv\n  \
@@ -65,6 +68,7 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
     let verdict = match found.diagnosis.verdict {
         CodeVerdict::None => "They are right within their scatter.",
         CodeVerdict::Known => "A known mistake explains them.",
+        CodeVerdict::Coarse => "They are right, but coarse.",
         CodeVerdict::Unknown => "No known mistake explains them.",
         CodeVerdict::TooFew => "They are too few for a diagnosis.",
     };
@@ -72,5 +76,8 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
         "The code gives {} of {} answers. {verdict}",
         found.answered, found.asked
     );
-    args.json.show(&[&sentence], &found)
+    let deviations = found.diagnosis.sentences();
+    let sentences = std::iter::once(&sentence).chain(&deviations);
+    let sentences: Vec<&str> = sentences.map(String::as_str).collect();
+    args.json.show(&sentences, &found)
 }

@@ -54,7 +54,12 @@ class CommonFactor(Result):
 class GroupDeviation(Result):
     """A group of answers of which some deviate."""
 
+    by: Literal[
+        "dimension", "quantity", "motion", "excitation", "equation", "scene"
+    ]
+    """The property by which answers are grouped."""
     group: str
+    """Its value."""
     answered: int
     deviating: int
     median_error: float | None
@@ -64,16 +69,12 @@ class GroupDeviation(Result):
 
 
 @dataclass(frozen=True)
-class Grouping(Result):
-    """The deviating answers, grouped by one property."""
+class Deviations(Result):
+    """Answers that deviate for an unknown reason."""
 
-    by: Literal[
-        "dimension", "quantity", "motion", "excitation", "equation", "scene"
-    ]
-    gain: float
-    """Gain in log-likelihood: the larger, the more the property explains."""
     groups: tuple[GroupDeviation, ...]
-    """The largest shares first."""
+    """By the property that explains most; then, by the other properties, the
+    groups of which more answers deviate than of others."""
     others: int
     """Number of answers in groups without deviating answers."""
     others_digits: float
@@ -93,8 +94,8 @@ class Diagnosis(Result):
     within: float | None
     """Largest relative error of 99 % of the answers of a coarse code, at a
     condition of 1."""
-    deviations: tuple[Grouping, ...]
-    """What deviates for an unknown reason; the first explains most."""
+    deviations: Deviations | None
+    """What deviates if the verdict is `unknown`."""
 
 
 @dataclass(frozen=True)

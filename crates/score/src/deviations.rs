@@ -84,11 +84,11 @@ fn quantile(values: impl Iterator<Item = f64>, level: f64) -> Option<f64> {
 /// If an answer has a property; `None` if the property is not known.
 type Property<'a> = &'a dyn Fn(&Residual) -> Option<bool>;
 
-/// Gain in log-likelihood if groups have their own shares of answers with a
+/// Gains in log-likelihood if groups have their own shares of answers with a
 /// property instead of `share`. An own share costs half the logarithm of the
 /// number of answers of the group (Schwarz 1978), and the choice of the group
-/// the logarithm of the number of groups; a group has one if this pays.
-fn gain(groups: &Groups<'_>, share: f64, has: Property<'_>) -> f64 {
+/// the logarithm of the number of groups; no gain if this does not pay.
+fn gains(groups: &Groups<'_>, share: f64, has: Property<'_>) -> Vec<f64> {
     let choice = libm::log(groups.len() as f64);
     let gains = groups.values().map(|group| {
         let known: Vec<bool> = group.iter().filter_map(|g| has(g)).collect();
@@ -97,9 +97,10 @@ fn gain(groups: &Groups<'_>, share: f64, has: Property<'_>) -> f64 {
         let sizes = [(part, share), (all - part, 1.0 - share)].into_iter();
         let sizes = sizes.filter(|(count, _)| *count > 0.0);
         let sizes = sizes.map(|(n, share)| n * libm::log(n / all / share));
-        sizes.sum::<f64>() - 0.5 * libm::log(all.max(1.0)) - choice
+        let gain = sizes.sum::<f64>() - 0.5 * libm::log(all.max(1.0));
+        (gain - choice).max(0.0)
     });
-    gains.map(|gain| gain.max(0.0)).sum()
+    gains.collect()
 }
 
 /// The largest error of 99 % of the answers at a condition of 1, if they are
@@ -120,7 +121,9 @@ pub(crate) fn within(given: &[Residual], growth: f64) -> Option<f64> {
     let is_alike = |by: &GroupedBy| {
         let groups = by.groups(given);
         let mut tests = tests.iter();
-        tests.all(|(share, has)| gain(&groups, *share, has) <= TIE)
+        tests.all(|(share, has)| {
+            gains(&groups, *share, has).iter().sum::<f64>() <= TIE
+        })
     };
     let is_coarse = within <= HALF_A_DIGIT
         && 2 * given.len() >= reference().items.len()
@@ -203,7 +206,9 @@ impl CommonFactor {
 /// A group of answers of which some deviate.
 #[derive(Clone, Debug, Serialize)]
 pub struct GroupDeviation {
-    /// Its name.
+    /// The property by which answers are grouped.
+    pub by: GroupedBy,
+    /// Its value.
     pub group: String,
     /// Number of answers.
     pub answered: usize,
@@ -218,14 +223,15 @@ pub struct GroupDeviation {
 }
 
 impl GroupDeviation {
-    fn new(group: String, all: &[&Residual]) -> Self {
+    fn new(by: GroupedBy, group: &str, all: &[&Residual]) -> Self {
         let off = || all.iter().filter(|one| one.deviates());
         let error = |level| {
             let errors = off().filter_map(|one| one.relative());
             quantile(errors.map(f64::abs), level)
         };
         Self {
-            group,
+            by,
+            group: group.to_owned(),
             answered: all.len(),
             deviating: off().count(),
             median_error: error(0.5),
@@ -238,9 +244,9 @@ impl GroupDeviation {
         self.deviating as f64 / self.answered as f64
     }
 
-    fn words(&self, by: GroupedBy) -> String {
+    fn words(&self) -> String {
         use FactorKind::{Constant, Sign};
-        let Self { group, answered, deviating, .. } = self;
+        let Self { by, group, answered, deviating, .. } = self;
         let by = match by {
             GroupedBy::Dimension | GroupedBy::Quantity => String::new(),
             _ => format!("{by} "),
@@ -268,56 +274,63 @@ impl GroupDeviation {
     }
 }
 
-/// The deviating answers, grouped by one property.
+/// Answers that deviate for an unknown reason.
 #[derive(Clone, Debug, Serialize)]
-pub struct Grouping {
-    /// The property.
-    pub by: GroupedBy,
-    /// Gain in log-likelihood if groups have their own shares of deviating
-    /// answers: the larger, the more the property explains.
-    pub gain: f64,
-    /// The groups with deviating answers, the largest shares first.
+pub struct Deviations {
+    /// The groups with deviating answers, the largest shares first, by the
+    /// property that explains most. Then, by the other properties, those of
+    /// which more answers deviate than of others.
     pub groups: Vec<GroupDeviation>,
-    /// Number of answers in groups without deviating answers.
+    /// Number of answers in groups without deviating answers, by the property
+    /// that explains most.
     pub others: usize,
     /// Digits to which these answers agree with the certified values at a
     /// condition of 1, 15 at most.
     pub others_digits: f64,
 }
 
-impl Grouping {
-    /// The groupings of deviating answers; the first explains most.
-    pub(crate) fn all(given: &[Residual]) -> Vec<Self> {
-        let mut all = GroupedBy::ALL.map(|by| Self::new(by, given)).to_vec();
-        all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        all
-    }
-
-    fn new(by: GroupedBy, given: &[Residual]) -> Self {
-        let all = by.groups(given);
+impl Deviations {
+    pub(crate) fn new(given: &[Residual]) -> Self {
         let off = given.iter().filter(|one| one.deviates()).count();
         let share = off as f64 / given.len() as f64;
-        let gain = gain(&all, share, &|one| Some(one.deviates()));
+        let by_gain = |by: GroupedBy| {
+            let groups = by.groups(given);
+            let gains = gains(&groups, share, &|one| Some(one.deviates()));
+            (by, groups, gains)
+        };
+        let mut all = GroupedBy::ALL.map(by_gain);
+        let sum = |gains: &[f64]| gains.iter().sum::<f64>();
+        all.sort_by(|(.., a), (.., b)| sum(b).total_cmp(&sum(a)));
         let (mut groups, mut others, mut worst) = (Vec::new(), 0, 1e-15_f64);
-        for (name, all) in all {
-            if all.iter().any(|one| one.deviates()) {
-                groups.push(GroupDeviation::new(name, &all));
-            } else {
-                let errors = all.iter().map(|one| one.error / one.condition);
-                worst = errors.fold(worst, f64::max);
-                others += all.len();
+        for (place, (by, names, gains)) in all.iter().enumerate() {
+            let start = groups.len();
+            for ((name, all), gain) in names.iter().zip(gains) {
+                let one = GroupDeviation::new(*by, name, all);
+                if one.deviating > 0
+                    && (place == 0 || (*gain > 0.0 && one.share() > share))
+                {
+                    groups.push(one);
+                } else if place == 0 {
+                    let errors = all.iter().map(|g| g.error / g.condition);
+                    worst = errors.fold(worst, f64::max);
+                    others += all.len();
+                }
             }
+            groups[start..].sort_by(|a: &GroupDeviation, b| {
+                b.share().total_cmp(&a.share())
+            });
         }
-        groups.sort_by(|a, b| b.share().total_cmp(&a.share()));
-        let others_digits = -libm::log10(worst);
-        Self { by, gain, groups, others, others_digits }
+        Self { groups, others, others_digits: -libm::log10(worst) }
     }
 
-    /// The deviations in words, a sentence for each of the first groups.
+    /// The deviations in words, a sentence for each of the first groups by the
+    /// property that explains most.
     pub fn sentences(&self) -> Vec<String> {
-        let shown = self.groups.iter().take(SHOWN);
-        let mut out: Vec<_> = shown.map(|one| one.words(self.by)).collect();
-        let further = self.groups.len() - out.len();
+        let first =
+            self.groups.iter().filter(|one| one.by == self.groups[0].by);
+        let mut out: Vec<_> = first.map(GroupDeviation::words).collect();
+        let further = out.len().saturating_sub(SHOWN);
+        out.truncate(SHOWN);
         if further > 0 {
             out.push(format!("Number of further groups: {further}."));
         }

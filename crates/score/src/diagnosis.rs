@@ -11,7 +11,7 @@ use rocking_exchange::table::digits;
 use serde::Serialize;
 
 use crate::answers::Answers;
-use crate::deviations::{Grouping, within};
+use crate::deviations::{Deviations, within};
 use crate::reference::{INPUTS, Value, reference};
 use crate::residual::{
     AGREE, BEYOND, COARSEST, LEFT, Residual, SHARE, Scatter, TIE, apart, given,
@@ -44,9 +44,8 @@ pub struct Diagnosis {
     /// Largest relative error of 99 % of the answers of a coarse code, at a
     /// condition of 1.
     pub within: Option<f64>,
-    /// The answers that deviate for an unknown reason, in one grouping after
-    /// another; the first explains most.
-    pub deviations: Vec<Grouping>,
+    /// What deviates if the verdict is [`CodeVerdict::Unknown`].
+    pub deviations: Option<Deviations>,
 }
 
 impl Diagnosis {
@@ -57,7 +56,7 @@ impl Diagnosis {
             scatter: scatter.map(|scatter| scatter.0),
             growth: scatter.map(|scatter| scatter.1),
             within: None,
-            deviations: Vec::new(),
+            deviations: None,
         }
     }
 
@@ -75,8 +74,8 @@ impl Diagnosis {
                  quantity, excitation, equation or scene is an exception."
             )
         });
-        let first = self.deviations.first().map(Grouping::sentences);
-        coarse.into_iter().chain(first.into_iter().flatten()).collect()
+        let off = self.deviations.iter().flat_map(Deviations::sentences);
+        coarse.into_iter().chain(off).collect()
     }
 }
 
@@ -222,7 +221,7 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
         return Diagnosis { within: Some(within), ..coarse };
     }
     let unknown = Diagnosis::new(CodeVerdict::Unknown, Some(none.scatter));
-    Diagnosis { deviations: Grouping::all(&given), ..unknown }
+    Diagnosis { deviations: Some(Deviations::new(&given)), ..unknown }
 }
 
 /// A hypothesis with its names and its factor.

@@ -27,7 +27,7 @@ mod score;
 
 pub use answers::Answers;
 pub use deviations::{
-    CommonFactor, FactorKind, GroupDeviation, GroupedBy, Grouping,
+    CommonFactor, Deviations, FactorKind, GroupDeviation, GroupedBy,
 };
 pub use diagnosis::{CodeVerdict, Diagnosis, Explanation, Mistake, diagnose};
 pub use own::{OwnResponse, answers_of, own_answers};

@@ -72,12 +72,13 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
         CodeVerdict::Unknown => "No known mistake explains them.",
         CodeVerdict::TooFew => "They are too few for a diagnosis.",
     };
-    let sentence = format!(
+    let mut text = format!(
         "The code gives {} of {} answers. {verdict}",
         found.answered, found.asked
     );
-    let deviations = found.diagnosis.sentences();
-    let sentences = std::iter::once(&sentence).chain(&deviations);
-    let sentences: Vec<&str> = sentences.map(String::as_str).collect();
-    args.json.show(&sentences, &found)
+    for sentence in found.diagnosis.sentences() {
+        text += "\n";
+        text += &sentence;
+    }
+    args.json.show(&[&text], &found)
 }

@@ -73,8 +73,8 @@ class Deviations(Result):
     """Answers that deviate for an unknown reason."""
 
     groups: tuple[GroupDeviation, ...]
-    """By the property that explains most; then, by the other properties, the
-    groups of which more answers deviate than of others."""
+    """By the property that explains most, then by the others except the scene;
+    the largest shares first."""
     others: int
     """Number of answers in groups without deviating answers."""
     others_digits: float

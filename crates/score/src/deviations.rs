@@ -84,11 +84,11 @@ fn quantile(values: impl Iterator<Item = f64>, level: f64) -> Option<f64> {
 /// If an answer has a property; `None` if the property is not known.
 type Property<'a> = &'a dyn Fn(&Residual) -> Option<bool>;
 
-/// Gains in log-likelihood if groups have their own shares of answers with a
+/// Gain in log-likelihood if groups have their own shares of answers with a
 /// property instead of `share`. An own share costs half the logarithm of the
 /// number of answers of the group (Schwarz 1978), and the choice of the group
-/// the logarithm of the number of groups; no gain if this does not pay.
-fn gains(groups: &Groups<'_>, share: f64, has: Property<'_>) -> Vec<f64> {
+/// the logarithm of the number of groups; a group has one if this pays.
+fn gain(groups: &Groups<'_>, share: f64, has: Property<'_>) -> f64 {
     let choice = libm::log(groups.len() as f64);
     let gains = groups.values().map(|group| {
         let known: Vec<bool> = group.iter().filter_map(|g| has(g)).collect();
@@ -100,7 +100,7 @@ fn gains(groups: &Groups<'_>, share: f64, has: Property<'_>) -> Vec<f64> {
         let gain = sizes.sum::<f64>() - 0.5 * libm::log(all.max(1.0));
         (gain - choice).max(0.0)
     });
-    gains.collect()
+    gains.sum()
 }
 
 /// The largest error of 99 % of the answers at a condition of 1, if they are
@@ -121,9 +121,7 @@ pub(crate) fn within(given: &[Residual], growth: f64) -> Option<f64> {
     let is_alike = |by: &GroupedBy| {
         let groups = by.groups(given);
         let mut tests = tests.iter();
-        tests.all(|(share, has)| {
-            gains(&groups, *share, has).iter().sum::<f64>() <= TIE
-        })
+        tests.all(|(share, has)| gain(&groups, *share, has) <= TIE)
     };
     let is_coarse = within <= HALF_A_DIGIT
         && 2 * given.len() >= reference().items.len()
@@ -277,9 +275,8 @@ impl GroupDeviation {
 /// Answers that deviate for an unknown reason.
 #[derive(Clone, Debug, Serialize)]
 pub struct Deviations {
-    /// The groups with deviating answers, the largest shares first, by the
-    /// property that explains most. Then, by the other properties, those of
-    /// which more answers deviate than of others.
+    /// The groups with deviating answers, by the property that explains most,
+    /// then by the others except the scene; the largest shares first.
     pub groups: Vec<GroupDeviation>,
     /// Number of answers in groups without deviating answers, by the property
     /// that explains most.
@@ -293,54 +290,50 @@ impl Deviations {
     pub(crate) fn new(given: &[Residual]) -> Self {
         let off = given.iter().filter(|one| one.deviates()).count();
         let share = off as f64 / given.len() as f64;
-        let by_gain = |by: GroupedBy| {
-            let groups = by.groups(given);
-            let gains = gains(&groups, share, &|one| Some(one.deviates()));
-            (by, groups, gains)
-        };
-        let mut all = GroupedBy::ALL.map(by_gain);
-        let sum = |gains: &[f64]| gains.iter().sum::<f64>();
-        all.sort_by(|(.., a), (.., b)| sum(b).total_cmp(&sum(a)));
-        let (mut groups, mut others, mut worst) = (Vec::new(), 0, 1e-15_f64);
-        for (place, (by, names, gains)) in all.iter().enumerate() {
-            let start = groups.len();
-            for ((name, all), gain) in names.iter().zip(gains) {
-                let one = GroupDeviation::new(*by, name, all);
-                if one.deviating > 0
-                    && (place == 0 || (*gain > 0.0 && one.share() > share))
-                {
-                    groups.push(one);
-                } else if place == 0 {
-                    let errors = all.iter().map(|g| g.error / g.condition);
-                    worst = errors.fold(worst, f64::max);
-                    others += all.len();
-                }
-            }
-            groups[start..].sort_by(|a: &GroupDeviation, b| {
-                b.share().total_cmp(&a.share())
-            });
-        }
-        Self { groups, others, others_digits: -libm::log10(worst) }
+        let mut all = GroupedBy::ALL.map(|by| (by, by.groups(given)));
+        all.sort_by_cached_key(|(_, groups)| {
+            let gain = gain(groups, share, &|one| Some(one.deviates()));
+            // Numbers that are not negative have the order of their bits.
+            std::cmp::Reverse(gain.to_bits())
+        });
+        let groups = all.iter().flat_map(|(by, groups)| {
+            let new = |(name, all): (&String, &Vec<_>)| {
+                GroupDeviation::new(*by, name, all)
+            };
+            let mut groups: Vec<_> = groups.iter().map(new).collect();
+            // Scenes are many.
+            let shown = all[0].0 == *by || *by != GroupedBy::Scene;
+            groups.retain(|one| shown && one.deviating > 0);
+            groups.sort_by(|a, b| b.share().total_cmp(&a.share()));
+            groups
+        });
+        let groups = groups.collect();
+        let others = all[0].1.values();
+        let others = others.filter(|all| !all.iter().any(|g| g.deviates()));
+        let errors = others.flatten().map(|one| one.error / one.condition);
+        let worst = errors.clone().fold(1e-15, f64::max);
+        let (others, others_digits) = (errors.count(), -libm::log10(worst));
+        Self { groups, others, others_digits }
     }
 
     /// The deviations in words, a sentence for each of the first groups by the
     /// property that explains most.
     pub fn sentences(&self) -> Vec<String> {
-        let first =
-            self.groups.iter().filter(|one| one.by == self.groups[0].by);
+        let is_first = |one: &&GroupDeviation| one.by == self.groups[0].by;
+        let first = self.groups.iter().filter(is_first);
         let mut out: Vec<_> = first.map(GroupDeviation::words).collect();
         let further = out.len().saturating_sub(SHOWN);
         out.truncate(SHOWN);
-        if further > 0 {
-            out.push(format!("Number of further groups: {further}."));
-        }
-        if self.others > 0 {
-            out.push(format!(
-                "The other {} answers agree to {} digits at a condition of 1.",
-                self.others,
-                self.others_digits.floor()
-            ));
-        }
+        let further = (further > 0)
+            .then(|| format!("Number of further groups: {further}."));
+        let (others, digits) = (self.others, self.others_digits.floor());
+        let others = (others > 0).then(|| {
+            format!(
+                "The other {others} answers agree to {digits} digits at a \
+                 condition of 1."
+            )
+        });
+        out.extend(further.into_iter().chain(others));
         out
     }
 }

@@ -406,6 +406,21 @@ mod tests {
     }
 
     #[test]
+    fn a_page_says_what_deviates() {
+        let mut answers = own_answers().unwrap();
+        for (place, item) in reference().items.iter().enumerate() {
+            if item.quantity == "peak_ratio" {
+                let x = answers.get(place).and_then(Value::number).unwrap();
+                answers.set(place, Some(Value::Number(2.0 * x)));
+            }
+        }
+        let page = page(&score(&answers));
+        let words = "peak_ratio: the 30 answers are the certified values \
+                     times 2.";
+        assert!(page.contains(words), "{page}");
+    }
+
+    #[test]
     fn a_code_that_fine_settings_do_not_serve_is_named() {
         let table = codes_table(&SETTINGS).unwrap();
         let wrong = |row: &Vec<String>| -> usize {

@@ -238,14 +238,36 @@ fn coarse_answers_are_coarse() {
         few.set(place, None);
     }
     assert_eq!(diagnose(&few, &[]).verdict, CodeVerdict::Unknown);
-    // A scatter of some answers is none of all.
-    let mut state = 5;
-    let samples = altered(&own, |scene, _, x| {
-        let is_free = matches!(scene.excitation, SceneExcitation::Free);
-        let size = if is_free { 0.0 } else { 1e-2 * normal(&mut state) };
-        x * (1.0 + size)
-    });
-    assert_eq!(diagnose(&samples, &[]).verdict, CodeVerdict::Unknown);
+}
+
+#[test]
+fn a_scatter_with_exceptions_is_not_coarse() {
+    let own = own_answers().unwrap();
+    let is_time = |item: &Item| item.quantity.ends_with("_time_s");
+    // Scatters of free motion, of forced motion, of its first uplift; and all
+    // errors of times in one direction.
+    for (free, forced, uplift, is_late) in [
+        (0.0, 1e-2, 1e-2, false),
+        (1e-3, 1e-3, 5e-2, false),
+        (1e-2, 1e-2, 1e-2, true),
+    ] {
+        let mut state = 5;
+        let answers = altered(&own, |scene, item, x| {
+            let is_free = matches!(scene.excitation, SceneExcitation::Free);
+            let mut error = normal(&mut state);
+            if is_late && is_time(item) {
+                error = error.abs();
+            }
+            let size = match item.quantity.as_str() {
+                "uplift_time_s" => uplift,
+                _ if is_free => free,
+                _ => forced,
+            };
+            x * (1.0 + size * error)
+        });
+        let found = diagnose(&answers, &[]);
+        assert_eq!(found.verdict, CodeVerdict::Unknown, "{free} {uplift}");
+    }
 }
 
 #[test]

@@ -235,7 +235,11 @@ pub(super) fn profile_limits(
             let next = inside + step;
             if value(next) < limit {
                 let mut halvings = 0..60;
-                let goes_on = |_, _| halvings.next().is_some();
+                // As long as there is a number between the ends.
+                let goes_on = |a, b| {
+                    ![a, b].contains(&(0.5 * (a + b)))
+                        && halvings.next().is_some()
+                };
                 let is_below = |x: f64| value(x) < limit;
                 let (outside, inside) =
                     narrow(next, inside, goes_on, is_below);

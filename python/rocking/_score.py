@@ -40,48 +40,6 @@ class Explanation(Result):
 
 
 @dataclass(frozen=True)
-class CommonFactor(Result):
-    """The factor between the answers of a group and the certified values."""
-
-    constant: float
-    kind: Literal[
-        "constant", "alpha", "1/alpha", "p", "1/p", "1/(alpha p)", "sign"
-    ]
-    """What the constant is multiplied by."""
-
-
-@dataclass(frozen=True)
-class GroupDeviation(Result):
-    """A group of answers of which some deviate."""
-
-    by: Literal[
-        "dimension", "quantity", "motion", "excitation", "equation", "scene"
-    ]
-    """The property by which answers are grouped."""
-    group: str
-    """Its value."""
-    answered: int
-    deviating: int
-    median_error: float | None
-    """Median of the relative errors of the numbers that deviate."""
-    largest_error: float | None
-    factor: CommonFactor | None
-
-
-@dataclass(frozen=True)
-class Deviations(Result):
-    """Answers that deviate for an unknown reason."""
-
-    groups: tuple[GroupDeviation, ...]
-    """By the property that explains most, then by the others except the scene;
-    the largest shares first."""
-    others: int
-    """Number of answers in groups without deviating answers."""
-    others_digits: float
-    """Digits to which these agree at a condition of 1, 15 at most."""
-
-
-@dataclass(frozen=True)
 class Diagnosis(Result):
     """The fault of a code."""
 
@@ -89,13 +47,8 @@ class Diagnosis(Result):
     explanations: tuple[Explanation, ...]
     """Several if the answers cannot distinguish them."""
     scatter: float | None
-    growth: float | None
-    """Power of the condition with which the scatter grows."""
-    within: float | None
-    """Largest relative error of 99 % of the answers of a coarse code, at a
-    condition of 1."""
-    deviations: Deviations | None
-    """What deviates if the verdict is `unknown`."""
+    remarks: tuple[str, ...]
+    """What is coarse or deviates; empty for other verdicts."""
 
 
 @dataclass(frozen=True)

@@ -11,19 +11,32 @@ use rocking_exchange::table::digits;
 use serde::Serialize;
 
 use crate::answers::Answers;
-use crate::deviations::{Deviations, within};
-use crate::reference::{INPUTS, Value, reference};
-use crate::residual::{
-    AGREE, BEYOND, COARSEST, LEFT, Residual, SHARE, Scatter, TIE, apart, given,
-};
+use crate::deviations::{deviations, within};
+use crate::reference::{INPUTS, Item, SceneExcitation, Value, reference};
 
 /// The fewest numbers for a diagnosis.
 const FEWEST: usize = 12;
 /// Required gain in log-likelihood of a mistake over no mistake.
 const GAIN: f64 = 20.0;
+/// Difference in log-likelihood up to which two hypotheses are not
+/// distinguished.
+pub(crate) const TIE: f64 = 6.0;
+/// Share of the deviating answers that a mistake must explain.
+pub(crate) const SHARE: f64 = 0.9;
+/// Largest part of an explained deviation that may be left.
+const LEFT: f64 = 0.4;
+/// Multiple of the scatter beyond which an answer deviates.
+pub(crate) const BEYOND: f64 = 10.0;
+/// Largest scatter of explained answers.
+const COARSEST: f64 = 1e-2;
+/// Largest relative error of a right code, at a condition of 1.
+const RIGHT: f64 = 1e-3;
 /// Largest product of a factor less one and a condition for which an answer
 /// moves along a straight line.
 const STRAIGHT: f64 = 0.3;
+/// Share of the answers that must have at most this error if no mistake is
+/// found.
+pub(crate) const AGREE: f64 = 0.99;
 /// Scatters that are tried, from the precision of the wrong models' values up.
 const SCATTERS: std::ops::Range<i32> = -36..0;
 /// Powers of the condition with which the scatter may grow.
@@ -39,44 +52,8 @@ pub struct Diagnosis {
     /// Relative scatter of the answers around the explanation, or around the
     /// certified values, at a condition of 1.
     pub scatter: Option<f64>,
-    /// Power of the condition with which the scatter grows.
-    pub growth: Option<f64>,
-    /// Largest relative error of 99 % of the answers of a coarse code, at a
-    /// condition of 1.
-    pub within: Option<f64>,
-    /// What deviates if the verdict is [`CodeVerdict::Unknown`].
-    pub deviations: Option<Deviations>,
-}
-
-impl Diagnosis {
-    fn new(verdict: CodeVerdict, scatter: Option<Scatter>) -> Self {
-        Self {
-            verdict,
-            explanations: Vec::new(),
-            scatter: scatter.map(|scatter| scatter.0),
-            growth: scatter.map(|scatter| scatter.1),
-            within: None,
-            deviations: None,
-        }
-    }
-
-    /// What is coarse or deviates; no sentence for other verdicts.
-    pub fn sentences(&self) -> Vec<String> {
-        let coarse = self.within.map(|within| {
-            let growth = match self.growth {
-                Some(0.5) => " times the square root of the condition",
-                Some(1.0) => " times the condition",
-                _ => "",
-            };
-            let percent = digits(100.0 * within, 2);
-            format!(
-                "99 % of the answers are right within {percent} %{growth}; no \
-                 quantity, excitation, equation or scene is an exception."
-            )
-        });
-        let off = self.deviations.iter().flat_map(Deviations::sentences);
-        coarse.into_iter().chain(off).collect()
-    }
+    /// What is coarse or deviates; empty for other verdicts.
+    pub remarks: Vec<String>,
 }
 
 /// The verdict on a code.
@@ -126,6 +103,31 @@ fn mistake(name: &str) -> Mistake {
     Mistake { name: name.to_owned(), what, look_at }
 }
 
+/// An answer with its error and its condition.
+#[derive(Clone)]
+pub(crate) struct Residual {
+    pub(crate) item: &'static Item,
+    value: Value,
+    pub(crate) condition: f64,
+    /// Error of the answer over the certified value, 1 at most.
+    pub(crate) error: f64,
+}
+
+/// Relative distance of two values, 1 at most; 1 if the second is missing.
+///
+/// Two counts above the certified count have no distance: if a block comes to
+/// rest too soon, its impacts are infinitely many, and a code stops somewhere.
+fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
+    use Value::{Count, Number};
+    match (a, b, &item.value) {
+        (Number(a), Some(Number(b)), Number(unit)) => {
+            ((a - b) / unit).abs().min(1.0)
+        }
+        (Count(a), Some(Count(b)), Count(due)) if a > due && b > due => 0.0,
+        _ => f64::from(u8::from(Some(a) != b)),
+    }
+}
+
 /// A hypothesis, by its distances from the answers and the certified values.
 struct Hypothesis {
     /// Distance of each answer from its prediction.
@@ -135,6 +137,11 @@ struct Hypothesis {
     scatter: Scatter,
     likelihood: f64,
 }
+
+/// Scatter of answers: at a condition of 1, and the power of the condition
+/// with which it grows.
+#[derive(Clone, Copy)]
+pub(crate) struct Scatter(pub(crate) f64, pub(crate) f64);
 
 impl Hypothesis {
     fn new(given: &[Residual], left: Vec<f64>, moved: Vec<f64>) -> Self {
@@ -190,38 +197,105 @@ impl Hypothesis {
     }
 }
 
+impl Residual {
+    /// Derivative of the value by an input. A release has no ground motion
+    /// whose size could be wrong.
+    fn rate(&self, input: usize) -> f64 {
+        let scene = reference().scene(self.item);
+        let still = matches!(scene.excitation, SceneExcitation::Free);
+        let size = INPUTS[input] == "size";
+        if size && still { 0.0 } else { self.item.rates[input] }
+    }
+
+    pub(crate) fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
+        scatter * libm::pow(self.condition, power)
+    }
+
+    /// Error over the certified value with its sign, if it is a number.
+    pub(crate) fn relative(&self) -> Option<f64> {
+        let numbers = self.value.number().zip(self.item.value.number());
+        numbers.map(|(x, c)| (x - c) / c)
+    }
+
+    /// Error over the certified value, without a limit if it is a number.
+    pub(crate) fn full(&self) -> f64 {
+        self.relative().map_or(self.error, f64::abs)
+    }
+
+    /// Largest relative error of a right answer.
+    pub(crate) fn right(&self) -> f64 {
+        self.allowed(Scatter(RIGHT, 0.5))
+    }
+
+    /// True if the error is larger.
+    pub(crate) fn deviates(&self) -> bool {
+        !(self.error <= self.right())
+    }
+}
+
+/// The answers with their conditions. An outcome or a count has the largest
+/// condition of its scene.
+fn given(answers: &Answers) -> Vec<Residual> {
+    let set = reference();
+    let mut worst = vec![1.0_f64; set.scenes.len()];
+    for item in &set.items {
+        worst[item.scene] = worst[item.scene].max(item.condition);
+    }
+    let items = set.items.iter().enumerate();
+    let found = items.filter_map(|(place, item)| {
+        let value = answers.get(place)?.clone();
+        let own = item.condition.max(1.0);
+        let whole = value.number().is_none();
+        let condition = if whole { worst[item.scene] } else { own };
+        let error = apart(item, &value, Some(&item.value));
+        Some(Residual { item, value, condition, error })
+    });
+    found.collect()
+}
+
 /// Finds the mistake that explains the answers, if any; mistakes in `withheld`
 /// are not considered.
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());
+    let mut found = Diagnosis {
+        verdict: CodeVerdict::TooFew,
+        explanations: Vec::new(),
+        scatter: None,
+        remarks: Vec::new(),
+    };
     if numbers.count() < FEWEST {
-        return Diagnosis::new(CodeVerdict::TooFew, None);
+        return found;
     }
     let none = Hypothesis::none(&given);
     let known = models(&given, withheld, none.likelihood + GAIN);
     let known = if known.is_empty() { inputs(&given) } else { known };
-    if let Some((_, _, first)) = known.first() {
+    found.scatter = Some(known.first().map_or(&none, |k| &k.2).scatter.0);
+    let right = given.iter().filter(|g| !g.deviates()).count();
+    let errors = given.iter().map(Residual::full).collect();
+    let full = Hypothesis::new(&given, errors, Vec::new());
+    if !known.is_empty() {
+        found.verdict = CodeVerdict::Known;
         let explanations = known.iter().map(|(names, factor, one)| {
             let (deviating, explained) = one.account(&given);
             let mistakes = names.iter().map(|name| mistake(name)).collect();
             Explanation { mistakes, factor: *factor, deviating, explained }
         });
-        let known = Diagnosis::new(CodeVerdict::Known, Some(first.scatter));
-        return Diagnosis { explanations: explanations.collect(), ..known };
+        found.explanations = explanations.collect();
+    } else if right as f64 >= AGREE * given.len() as f64 {
+        found.verdict = CodeVerdict::None;
+    } else if let Some(within) = within(&given, full.scatter.1) {
+        found.verdict = CodeVerdict::Coarse;
+        found.remarks.push(format!(
+            "99 % of the answers are right within {} % at a condition of 1; \
+             no quantity, excitation or equation is an exception.",
+            digits(100.0 * within, 2)
+        ));
+    } else {
+        found.verdict = CodeVerdict::Unknown;
+        found.remarks = deviations(&given);
     }
-    let right = given.iter().filter(|g| !g.deviates()).count();
-    if right as f64 >= AGREE * given.len() as f64 {
-        return Diagnosis::new(CodeVerdict::None, Some(none.scatter));
-    }
-    let errors = given.iter().map(Residual::full).collect();
-    let coarse = Hypothesis::new(&given, errors, Vec::new()).scatter;
-    if let Some(within) = within(&given, coarse.1) {
-        let coarse = Diagnosis::new(CodeVerdict::Coarse, Some(coarse));
-        return Diagnosis { within: Some(within), ..coarse };
-    }
-    let unknown = Diagnosis::new(CodeVerdict::Unknown, Some(none.scatter));
-    Diagnosis { deviations: Some(Deviations::new(&given)), ..unknown }
+    found
 }
 
 /// A hypothesis with its names and its factor.
@@ -282,9 +356,8 @@ fn inputs(all: &[Residual]) -> Vec<Named> {
 /// The factor on an input by the answers, less one: a weighted median.
 fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
     let says = given.iter().filter_map(|g| {
-        let (x, c) = g.value.number().zip(g.item.value.number())?;
         let rate = g.rate(input);
-        let says = (x - c) / c / rate;
+        let says = g.relative()? / rate;
         says.is_finite().then_some((says, rate.abs() / g.condition))
     });
     let mut says: Vec<(f64, f64)> = says.collect();
@@ -304,12 +377,11 @@ fn input_off(given: &[Residual], input: usize, by: f64) -> Vec<Named> {
         .iter()
         .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by));
     let left = given.iter().zip(moved.clone()).map(|(g, moved)| {
-        let numbers = g.value.number().zip(g.item.value.number());
-        numbers.map_or(g.error, |(x, c)| {
+        g.relative().map_or(g.error, |error| {
             // The deviation from a straight line is of second order.
             let bent = by * g.condition;
             let curved = bent * bent;
-            (((x - c) / c - moved).abs() - curved).clamp(0.0, 1.0)
+            ((error - moved).abs() - curved).clamp(0.0, 1.0)
         })
     });
     let left = left.collect();

@@ -22,13 +22,9 @@ mod deviations;
 mod diagnosis;
 mod own;
 mod reference;
-mod residual;
 mod score;
 
 pub use answers::Answers;
-pub use deviations::{
-    CommonFactor, Deviations, FactorKind, GroupDeviation, GroupedBy,
-};
 pub use diagnosis::{CodeVerdict, Diagnosis, Explanation, Mistake, diagnose};
 pub use own::{OwnResponse, answers_of, own_answers};
 pub use reference::{

@@ -114,13 +114,6 @@ macro_rules! pulses {
         }
 
         impl PulseKind {
-            /// Its name, without its parameters.
-            pub fn name(&self) -> PulseName {
-                match self {
-                    $(Self::$kind { .. } => PulseName::$kind,)+
-                }
-            }
-
             /// The amplitude: an acceleration, or a velocity.
             pub fn amplitude_mut(&mut self) -> &mut f64 {
                 match self {

@@ -287,7 +287,7 @@ fn diagnosis(score: &Score) -> Markup {
                 p { "Relative scatter about the explanation: " (scatter) "." }
             }
         }
-        @for sentence in found.sentences() { p { (sentence) } }
+        @for remark in &found.remarks { p { (remark) } }
     }
 }
 

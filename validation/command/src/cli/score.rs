@@ -20,8 +20,8 @@ use crate::input;
 /// names the mistake that explains the answers, or several that these answers
 /// cannot distinguish. Otherwise it reports that the answers are right, right
 /// but coarse, or wrong for an unknown reason: then it gives the quantities,
-/// excitations, equations or scenes that deviate, and their factor if they have
-/// one in common.
+/// excitations or equations that deviate, and their factor if they have one in
+/// common.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking score answers.csv\n  \
@@ -72,13 +72,11 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
         CodeVerdict::Unknown => "No known mistake explains them.",
         CodeVerdict::TooFew => "They are too few for a diagnosis.",
     };
-    let mut text = format!(
+    let mut lines = found.diagnosis.remarks.clone();
+    let sentence = format!(
         "The code gives {} of {} answers. {verdict}",
         found.answered, found.asked
     );
-    for sentence in found.diagnosis.sentences() {
-        text += "\n";
-        text += &sentence;
-    }
-    args.json.show(&[&text], &found)
+    lines.insert(0, sentence);
+    args.json.show(&[&lines.join("\n")], &found)
 }

@@ -116,9 +116,8 @@ fn factor(group: &[&Residual], deviating: usize) -> Option<String> {
         };
         let constant = quantile(group.iter().filter_map(ratio), 0.5);
         let right = group.iter().filter(|one| {
-            ratio(one).is_some_and(|ratio| {
-                (ratio / constant - 1.0).abs() <= one.right()
-            })
+            ratio(one)
+                .is_some_and(|x| one.may_have((x / constant - 1.0).abs()))
         });
         let bad = group.len() - right.count();
         let holds = bad as f64 <= (1.0 - SHARE) * deviating as f64;
@@ -134,15 +133,16 @@ fn factor(group: &[&Residual], deviating: usize) -> Option<String> {
 /// What deviates, by the property that explains most: a sentence for each group
 /// with deviating answers, and one for the other answers.
 pub(crate) fn deviations(given: &[Residual]) -> Vec<String> {
-    let off = given.iter().filter(|one| one.deviates()).count();
+    let off = given.iter().filter(|one| !one.may_have(one.error)).count();
     let share = off as f64 / given.len() as f64;
-    let explained =
-        |groups: &Groups<'_>| gain(groups, share, |one| Some(one.deviates()));
+    let explained = |groups: &Groups<'_>| {
+        gain(groups, share, |one| Some(!one.may_have(one.error)))
+    };
     let all = groups(given);
     let best = all.iter().max_by(|a, b| explained(a).total_cmp(&explained(b)));
     let (mut out, mut others) = (Vec::new(), Vec::<&Residual>::new());
     for (name, group) in best.into_iter().flatten() {
-        let off = group.iter().filter(|one| one.deviates());
+        let off = group.iter().filter(|one| !one.may_have(one.error));
         let errors: Vec<f64> = off.map(|one| one.error).collect();
         let (all, off) = (group.len(), errors.len());
         match factor(group, off) {

@@ -222,14 +222,9 @@ impl Residual {
         self.relative().map_or(self.error, f64::abs)
     }
 
-    /// Largest relative error of a right answer.
-    pub(crate) fn right(&self) -> f64 {
-        self.allowed(Scatter(RIGHT, 0.5))
-    }
-
-    /// True if the error is larger.
-    pub(crate) fn deviates(&self) -> bool {
-        !(self.error <= self.right())
+    /// True if a right answer may have this relative error.
+    pub(crate) fn may_have(&self, error: f64) -> bool {
+        error <= self.allowed(Scatter(RIGHT, 0.5))
     }
 }
 
@@ -271,7 +266,7 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let known = models(&given, withheld, none.likelihood + GAIN);
     let known = if known.is_empty() { inputs(&given) } else { known };
     found.scatter = Some(known.first().map_or(&none, |k| &k.2).scatter.0);
-    let right = given.iter().filter(|g| !g.deviates()).count();
+    let right = given.iter().filter(|g| g.may_have(g.error)).count();
     let errors = given.iter().map(Residual::full).collect();
     let full = Hypothesis::new(&given, errors, Vec::new());
     if !known.is_empty() {

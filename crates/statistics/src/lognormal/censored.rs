@@ -229,7 +229,7 @@ pub(super) fn profile_limits(
         highest(observations, mean * a, |b| (a, b), (0.0, 1.0))
     };
     // The rounding of the log-likelihood.
-    let near = f64::EPSILON * top.abs().max(4.0);
+    let near = 4.0 * f64::EPSILON * top.abs().max(1.0);
     let end = |from: f64, first: f64, value: &dyn Fn(f64) -> f64| {
         // Almost linear in the distance from the maximum.
         let drop = |by: f64| {

@@ -43,10 +43,12 @@ class Explanation(Result):
 class Diagnosis(Result):
     """The fault of a code."""
 
-    verdict: Literal["none", "known", "unknown", "too-few"]
+    verdict: Literal["none", "known", "coarse", "unknown", "too-few"]
     explanations: tuple[Explanation, ...]
     """Several if the answers cannot distinguish them."""
     scatter: float | None
+    remarks: tuple[str, ...]
+    """What is coarse or deviates; empty for other verdicts."""
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,11 @@
 //! heavy-tailed Cauchy distribution, with the `s` and the `n` (0, 1/2 or 1)
 //! that suit the hypothesis best.
 
+use rocking_exchange::table::digits;
 use serde::Serialize;
 
 use crate::answers::Answers;
+use crate::deviations::{deviations, within};
 use crate::reference::{INPUTS, Item, SceneExcitation, Value, reference};
 
 /// The fewest numbers for a diagnosis.
@@ -18,13 +20,13 @@ const FEWEST: usize = 12;
 const GAIN: f64 = 20.0;
 /// Difference in log-likelihood up to which two hypotheses are not
 /// distinguished.
-const TIE: f64 = 6.0;
+pub(crate) const TIE: f64 = 6.0;
 /// Share of the deviating answers that a mistake must explain.
-const SHARE: f64 = 0.9;
+pub(crate) const SHARE: f64 = 0.9;
 /// Largest part of an explained deviation that may be left.
 const LEFT: f64 = 0.4;
 /// Multiple of the scatter beyond which an answer deviates.
-const BEYOND: f64 = 10.0;
+pub(crate) const BEYOND: f64 = 10.0;
 /// Largest scatter of explained answers.
 const COARSEST: f64 = 1e-2;
 /// Largest relative error of a right code, at a condition of 1.
@@ -34,7 +36,7 @@ const RIGHT: f64 = 1e-3;
 const STRAIGHT: f64 = 0.3;
 /// Share of the answers that must have at most this error if no mistake is
 /// found.
-const AGREE: f64 = 0.99;
+pub(crate) const AGREE: f64 = 0.99;
 /// Scatters that are tried, from the precision of the wrong models' values up.
 const SCATTERS: std::ops::Range<i32> = -36..0;
 /// Powers of the condition with which the scatter may grow.
@@ -50,6 +52,8 @@ pub struct Diagnosis {
     /// Relative scatter of the answers around the explanation, or around the
     /// certified values, at a condition of 1.
     pub scatter: Option<f64>,
+    /// What is coarse or deviates; empty for other verdicts.
+    pub remarks: Vec<String>,
 }
 
 /// The verdict on a code.
@@ -60,6 +64,8 @@ pub enum CodeVerdict {
     None,
     /// One of the known mistakes explains the answers.
     Known,
+    /// The answers are right within a scatter that is large.
+    Coarse,
     /// No known mistake explains the answers.
     Unknown,
     /// Too few answers for a verdict.
@@ -99,12 +105,12 @@ fn mistake(name: &str) -> Mistake {
 
 /// An answer with its error and its condition.
 #[derive(Clone)]
-struct Residual {
-    item: &'static Item,
+pub(crate) struct Residual {
+    pub(crate) item: &'static Item,
     value: Value,
-    condition: f64,
-    /// Error of the answer over the certified value.
-    error: f64,
+    pub(crate) condition: f64,
+    /// Error of the answer over the certified value, 1 at most.
+    pub(crate) error: f64,
 }
 
 /// Relative distance of two values, 1 at most; 1 if the second is missing.
@@ -135,7 +141,7 @@ struct Hypothesis {
 /// Scatter of answers: at a condition of 1, and the power of the condition
 /// with which it grows.
 #[derive(Clone, Copy)]
-struct Scatter(f64, f64);
+pub(crate) struct Scatter(pub(crate) f64, pub(crate) f64);
 
 impl Hypothesis {
     fn new(given: &[Residual], left: Vec<f64>, moved: Vec<f64>) -> Self {
@@ -201,8 +207,24 @@ impl Residual {
         if size && still { 0.0 } else { self.item.rates[input] }
     }
 
-    fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
+    pub(crate) fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
         scatter * libm::pow(self.condition, power)
+    }
+
+    /// Error over the certified value with its sign, if it is a number.
+    pub(crate) fn relative(&self) -> Option<f64> {
+        let numbers = self.value.number().zip(self.item.value.number());
+        numbers.map(|(x, c)| (x - c) / c)
+    }
+
+    /// Error over the certified value, without a limit if it is a number.
+    pub(crate) fn full(&self) -> f64 {
+        self.relative().map_or(self.error, f64::abs)
+    }
+
+    /// True if a right answer may have this relative error.
+    pub(crate) fn may_have(&self, error: f64) -> bool {
+        error <= self.allowed(Scatter(RIGHT, 0.5))
     }
 }
 
@@ -231,34 +253,44 @@ fn given(answers: &Answers) -> Vec<Residual> {
 pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());
+    let mut found = Diagnosis {
+        verdict: CodeVerdict::TooFew,
+        explanations: Vec::new(),
+        scatter: None,
+        remarks: Vec::new(),
+    };
     if numbers.count() < FEWEST {
-        let (verdict, explanations) = (CodeVerdict::TooFew, Vec::new());
-        return Diagnosis { verdict, explanations, scatter: None };
+        return found;
     }
     let none = Hypothesis::none(&given);
     let known = models(&given, withheld, none.likelihood + GAIN);
     let known = if known.is_empty() { inputs(&given) } else { known };
-    if let Some((_, _, first)) = known.first() {
+    found.scatter = Some(known.first().map_or(&none, |k| &k.2).scatter.0);
+    let right = given.iter().filter(|g| g.may_have(g.error)).count();
+    let errors = given.iter().map(Residual::full).collect();
+    let full = Hypothesis::new(&given, errors, Vec::new());
+    if !known.is_empty() {
+        found.verdict = CodeVerdict::Known;
         let explanations = known.iter().map(|(names, factor, one)| {
             let (deviating, explained) = one.account(&given);
             let mistakes = names.iter().map(|name| mistake(name)).collect();
             Explanation { mistakes, factor: *factor, deviating, explained }
         });
-        return Diagnosis {
-            verdict: CodeVerdict::Known,
-            explanations: explanations.collect(),
-            scatter: Some(first.scatter.0),
-        };
+        found.explanations = explanations.collect();
+    } else if right as f64 >= AGREE * given.len() as f64 {
+        found.verdict = CodeVerdict::None;
+    } else if let Some(within) = within(&given, full.scatter.1) {
+        found.verdict = CodeVerdict::Coarse;
+        found.remarks.push(format!(
+            "99 % of the answers are right within {} % at a condition of 1; \
+             no quantity, excitation or equation is an exception.",
+            digits(100.0 * within, 2)
+        ));
+    } else {
+        found.verdict = CodeVerdict::Unknown;
+        found.remarks = deviations(&given);
     }
-    let right = given
-        .iter()
-        .filter(|g| g.error <= g.allowed(Scatter(RIGHT, 0.5)))
-        .count();
-    let agrees = right as f64 >= AGREE * given.len() as f64;
-    let verdict =
-        if agrees { CodeVerdict::None } else { CodeVerdict::Unknown };
-    let scatter = Some(none.scatter.0);
-    Diagnosis { verdict, explanations: Vec::new(), scatter }
+    found
 }
 
 /// A hypothesis with its names and its factor.
@@ -319,9 +351,8 @@ fn inputs(all: &[Residual]) -> Vec<Named> {
 /// The factor on an input by the answers, less one: a weighted median.
 fn factor_less_one(given: &[Residual], input: usize) -> Option<f64> {
     let says = given.iter().filter_map(|g| {
-        let (x, c) = g.value.number().zip(g.item.value.number())?;
         let rate = g.rate(input);
-        let says = (x - c) / c / rate;
+        let says = g.relative()? / rate;
         says.is_finite().then_some((says, rate.abs() / g.condition))
     });
     let mut says: Vec<(f64, f64)> = says.collect();
@@ -341,12 +372,11 @@ fn input_off(given: &[Residual], input: usize, by: f64) -> Vec<Named> {
         .iter()
         .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by));
     let left = given.iter().zip(moved.clone()).map(|(g, moved)| {
-        let numbers = g.value.number().zip(g.item.value.number());
-        numbers.map_or(g.error, |(x, c)| {
+        g.relative().map_or(g.error, |error| {
             // The deviation from a straight line is of second order.
             let bent = by * g.condition;
             let curved = bent * bent;
-            (((x - c) / c - moved).abs() - curved).clamp(0.0, 1.0)
+            ((error - moved).abs() - curved).clamp(0.0, 1.0)
         })
     });
     let left = left.collect();

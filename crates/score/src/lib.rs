@@ -18,6 +18,7 @@
 #![deny(missing_docs)]
 
 mod answers;
+mod deviations;
 mod diagnosis;
 mod own;
 mod reference;

@@ -15,6 +15,35 @@ pub fn narrow(
     (yes, no)
 }
 
+/// The zero of a function that rises from `low` to `high`, two places with the
+/// values there, by the Illinois method; its value is `near` 0.
+pub fn zero(
+    f: impl Fn(f64) -> f64,
+    (mut low, mut at_low): (f64, f64),
+    (mut high, mut at_high): (f64, f64),
+    near: f64,
+) -> f64 {
+    let mut side = 0;
+    for _ in 0..100 {
+        let y = (low * at_high - high * at_low) / (at_high - at_low);
+        let at = f(y);
+        if !(at.abs() > near && y > low && y < high) {
+            return y;
+        }
+        // An end that stays counts half.
+        if at < 0.0 {
+            (low, at_low) = (y, at);
+            at_high *= if side < 0 { 0.5 } else { 1.0 };
+            side = -1;
+        } else {
+            (high, at_high) = (y, at);
+            at_low *= if side > 0 { 0.5 } else { 1.0 };
+            side = 1;
+        }
+    }
+    0.5 * (low + high)
+}
+
 /// The place of a maximum between two places, by golden sections.
 pub fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const SHARE: f64 = 0.618_033_988_749_894_8;
@@ -35,4 +64,23 @@ pub fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
         }
     }
     0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::zero;
+
+    #[test]
+    fn a_zero_is_found_in_a_few_steps() {
+        let steps = Cell::new(0);
+        let f = |x: f64| {
+            steps.set(steps.get() + 1);
+            f64::mul_add(x * x, x, -2.0)
+        };
+        let found = zero(f, (0.0, -2.0), (2.0, 6.0), 1e-14);
+        assert!((found - libm::cbrt(2.0)).abs() < 1e-14, "{found}");
+        assert!(steps.get() <= 12, "{steps:?}");
+    }
 }

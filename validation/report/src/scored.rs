@@ -268,6 +268,9 @@ fn diagnosis(score: &Score) -> Markup {
                 "The cause is not among the known mistakes: no single one, and \
                  no pair that was tried, explains the answers."
             }
+            CodeVerdict::Coarse => p {
+                "None of the known mistakes: the answers are right, but coarse."
+            }
             CodeVerdict::TooFew => p { "Too few answers for a verdict." }
             CodeVerdict::Known => {
                 @if found.explanations.len() > 1 {
@@ -284,6 +287,7 @@ fn diagnosis(score: &Score) -> Markup {
                 p { "Relative scatter about the explanation: " (scatter) "." }
             }
         }
+        @for remark in &found.remarks { p { (remark) } }
     }
 }
 
@@ -399,6 +403,21 @@ mod tests {
         let rows = codes_table(&SETTINGS).unwrap().rows.len();
         assert_eq!(figure.csv().lines().count(), 1 + 5 * rows);
         assert!(!figure.reading.contains("inf"), "{}", figure.reading);
+    }
+
+    #[test]
+    fn a_page_says_what_deviates() {
+        let mut answers = own_answers().unwrap();
+        for (place, item) in reference().items.iter().enumerate() {
+            if item.quantity == "peak_ratio" {
+                let x = answers.get(place).and_then(Value::number).unwrap();
+                answers.set(place, Some(Value::Number(2.0 * x)));
+            }
+        }
+        let page = page(&score(&answers));
+        let words = "peak_ratio: the 30 answers are the certified values \
+                     times 2.";
+        assert!(page.contains(words), "{page}");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use libm::{exp, hypot, log};
 use rocking_statistics::Lognormal;
 use rocking_statistics::lognormal::LognormalError;
 use rocking_statistics::normal::{self, pdf};
-use rocking_statistics::search::golden;
+use rocking_statistics::search::{golden, zero};
 
 /// Score beyond which a normal probability counts as 0 or 1.
 const CERTAIN: f64 = 9.0;
@@ -293,30 +293,11 @@ impl Parts {
         let wanted = normal::quantile(p);
         let score = |y: f64| self.score(exp(y)).clamp(-CERTAIN, CERTAIN);
         let off = |y: f64| score(y) - wanted;
-        let (mut low, mut high) = (
-            place(normal::quantile(0.5 * p)),
-            place(normal::quantile(p.sqrt())),
-        );
-        let (mut at_low, mut at_high) = (off(low), off(high));
-        let mut side = 0;
-        for _ in 0..100 {
-            let y = (low * at_high - high * at_low) / (at_high - at_low);
-            let at = off(y);
-            if !(at.abs() > total.fineness.score && y > low && y < high) {
-                return exp(y);
-            }
-            // Regula falsi, Illinois: an end that stays counts half.
-            if at < 0.0 {
-                (low, at_low) = (y, at);
-                at_high *= if side < 0 { 0.5 } else { 1.0 };
-                side = -1;
-            } else {
-                (high, at_high) = (y, at);
-                at_low *= if side > 0 { 0.5 } else { 1.0 };
-                side = 1;
-            }
-        }
-        exp(0.5 * (low + high))
+        let end = |p: f64| {
+            let y = place(normal::quantile(p));
+            (y, off(y))
+        };
+        exp(zero(off, end(0.5 * p), end(p.sqrt()), total.fineness.score))
     }
 
     /// The score of the largest density.

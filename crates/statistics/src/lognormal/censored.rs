@@ -4,7 +4,7 @@ use libm::{exp, log};
 
 use super::FitError;
 use crate::normal::{LN_SQRT_TWO_PI, cdf, ln_cdf, survival};
-use crate::search::narrow;
+use crate::search::zero;
 
 const STEPS: usize = 100;
 
@@ -228,22 +228,24 @@ pub(super) fn profile_limits(
         let a = exp(-ln);
         highest(observations, mean * a, |b| (a, b), (0.0, 1.0))
     };
-    let limit = top - DROP;
-    let end = |from: f64, mut step: f64, value: &dyn Fn(f64) -> f64| {
-        let mut inside = from;
-        while (inside + step - from).abs() < FARTHEST {
-            let next = inside + step;
-            if value(next) < limit {
-                let mut halvings = 0..60;
-                let goes_on = |_, _| halvings.next().is_some();
-                let is_below = |x: f64| value(x) < limit;
-                let (outside, inside) =
-                    narrow(next, inside, goes_on, is_below);
-                return 0.5 * (inside + outside);
+    // The rounding of the log-likelihood.
+    let near = 4.0 * f64::EPSILON * top.abs().max(1.0);
+    let end = |from: f64, first: f64, value: &dyn Fn(f64) -> f64| {
+        // Almost linear in the distance from the maximum.
+        let drop = |by: f64| {
+            let drop = top - value(from + by.copysign(first));
+            drop.max(0.0).sqrt() - DROP.sqrt()
+        };
+        let (mut inside, mut step) = ((0.0, -DROP.sqrt()), first.abs());
+        while inside.0 + step < FARTHEST {
+            let next = (inside.0 + step, drop(inside.0 + step));
+            if next.1 > 0.0 {
+                let by = zero(drop, inside, next, near);
+                return from + by.copysign(first);
             }
             (inside, step) = (next, 1.5 * step);
         }
-        f64::INFINITY.copysign(step)
+        f64::INFINITY.copysign(first)
     };
     let step = 0.1 * deviation;
     let ln = log(deviation);

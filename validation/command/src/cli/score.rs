@@ -18,7 +18,10 @@ use crate::input;
 /// the relative error, up to the limit of double precision. The diagnosis
 /// compares all answers with those of 34 wrong models and 15 pairs of them. It
 /// names the mistake that explains the answers, or several that these answers
-/// cannot distinguish, or reports that there is no mistake or an unknown one.
+/// cannot distinguish. Otherwise it reports that the answers are right, right
+/// but coarse, or wrong for an unknown reason: then it gives the quantities,
+/// excitations or equations that deviate, and their factor if they have one in
+/// common.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     rocking score answers.csv\n  \
@@ -65,12 +68,15 @@ pub fn run_score(args: &ScoreCommand) -> Result<(), Failure> {
     let verdict = match found.diagnosis.verdict {
         CodeVerdict::None => "They are right within their scatter.",
         CodeVerdict::Known => "A known mistake explains them.",
+        CodeVerdict::Coarse => "They are right, but coarse.",
         CodeVerdict::Unknown => "No known mistake explains them.",
         CodeVerdict::TooFew => "They are too few for a diagnosis.",
     };
+    let mut lines = found.diagnosis.remarks.clone();
     let sentence = format!(
         "The code gives {} of {} answers. {verdict}",
         found.answered, found.asked
     );
-    args.json.show(&[&sentence], &found)
+    lines.insert(0, sentence);
+    args.json.show(&[&lines.join("\n")], &found)
 }

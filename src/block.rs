@@ -4,7 +4,7 @@
 //! `Dynamics::new`, `Driver::impact`, the impacts of `coast` (`after_impact`,
 //! `last`, `hops`), `trace`, `Accuracy::impact`, `Screen::land`,
 //! `BarrierHop::safe`, and the lanes (`pool`: `group`, `batch`, `chatter`). It
-//! needs the proofs P1 to P5, P7 and P10 of the integrator anew.
+//! needs the proofs P1 to P5, P7, P10 and P12 of the integrator anew.
 //! `Once::Restitution` and `moved` make the condition number of eta; `trace`
 //! and `hops` take eta < 1 for a motion that ends.
 

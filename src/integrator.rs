@@ -28,13 +28,14 @@
 //! | P9 | `excitation::record_index` | a part of a record lifts no block at rest |
 //! | P10 | `coast` | observation may cut free motion |
 //! | P11 | `forcing` | the distance of a ground motion from the uplift threshold |
+//! | P12 | `accuracy::hops` | hops of unknown order stay small |
 //!
 //! | change | module | proofs |
 //! |---|---|---|
 //! | pulse | `excitation::pulse::kind` | P8, P11 |
-//! | impact law | `block`, `driver::impact` | P1 to P5, P7, P10 |
+//! | impact law | `block`, `driver::impact` | P1 to P5, P7, P10, P12 |
 //! | overturning criterion | `dynamics` | P1, P3, P7, P10 |
-//! | kind of excitation | `excitation` | P2, P3, P9, P11 |
+//! | kind of excitation | `excitation` | P2, P3, P9, P11, P12 |
 //! | instruction set | `number::dispatch` | no proof; the bits stay as they are |
 //!
 //! # Terms

@@ -5,7 +5,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Adjust, Analysis, Batch, Grid, Resurrections, curve, curves,
 };
-use rocking::integrator::{Model, Order, Overturning};
+use rocking::integrator::{Extent, Model, Order, Overturning};
 use rocking::number::dispatch::Isa;
 
 /// Filtered noise under a parabolic envelope, from a linear congruence.
@@ -39,6 +39,8 @@ fn panel() -> Result<Vec<Analysis>, Box<dyn std::error::Error>> {
         let paper = Analysis::paper(Block::try_new(alpha, p)?, restitution);
         let im = Grid::Im { step: 0.25 };
         out.push(Analysis { highest_im: 12.0, ..paper });
+        let extent = Extent::Outcome;
+        out.push(Analysis { certify: true, extent, ..paper });
         out.push(Analysis {
             overturning: Overturning::HalfPi,
             refine: Some(1e-3),

@@ -4,7 +4,8 @@ use rocking::accelerogram::Accelerogram;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Outcome, Overturning, Response, Scene, Work, respond,
+    Arithmetic, Certify, Model, Observe, Outcome, Overturning, Response,
+    Scene, Work, certify, respond,
 };
 
 use super::compare::near;
@@ -137,4 +138,26 @@ fn a_peak_is_the_first_of_equal_ones() {
 fn nothing_costs_nothing() {
     let found = respond(&scene(Excitation::Free), &Observe::default());
     assert_eq!(found.unwrap().work, Work::default());
+}
+
+/// A ground that exceeds the threshold by so little that the block makes
+/// endless tiny hops. Nothing depends on them: the next peak overturns it.
+#[test]
+fn hops_without_consequence_need_no_wider_arithmetic() {
+    let threshold = libm::tan(ALPHA);
+    let [next, held] = [1.5 * threshold, 0.5 * threshold];
+    let samples = vec![0.0, threshold, 0.0, next, held, held, held];
+    let record = Accelerogram::try_new("tie", 1.0, samples).unwrap();
+    let block = Block::try_new(ALPHA, 2.0).unwrap();
+    for eta in [0.5, 0.92, 0.99, 0.999] {
+        for excess in [1e-12, 1e-9, 3e-7, 1e-4] {
+            let record = ScaledRecord::by_factor(&record, 1.0 + excess);
+            let eta = Restitution::constant(eta).unwrap();
+            let scene = Scene::new(block, eta, Excitation::Record(record));
+            let found = certify(&scene, &Certify::default()).unwrap();
+            assert!(found.resolved, "{excess:e}: {found:?}");
+            assert_eq!(found.by, Arithmetic::Double, "{excess:e}: {found:?}");
+            assert!(found.outcome.is_overturned());
+        }
+    }
 }

@@ -106,7 +106,11 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
 
 /// A run that ends early.
 fn peak(scene: &Scene<'_>) -> Response {
-    let solver = Solver { extent: Extent::Peak, ..Solver::default() };
+    early(scene, Extent::Peak)
+}
+
+fn early(scene: &Scene<'_>, extent: Extent) -> Response {
+    let solver = Solver { extent, ..Solver::default() };
     let work_limit = WorkLimit::IDA;
     let observe = Observe { work_limit, ..Observe::default() };
     solver.respond(scene, &observe).unwrap()
@@ -118,7 +122,7 @@ fn peak(scene: &Scene<'_>) -> Response {
 #[test]
 fn runs_that_end_early_say_what_whole_runs_say() {
     let block = Block::try_new(0.1, 2.5).unwrap();
-    let (mut shorter, mut same) = (0, 0);
+    let (mut shorter, mut same, mut sooner) = (0, 0, 0);
     for model in [Model::Nonlinear, Model::Linearized] {
         for k in 0..48_u32 {
             let seed = f64::from(k);
@@ -151,6 +155,11 @@ fn runs_that_end_early_say_what_whole_runs_say() {
                 let whole = respond(&scene, &Observe::default()).unwrap();
                 let peak = peak(&scene);
                 assert!(peak.work.steps <= whole.work.steps);
+                let outcome = early(&scene, Extent::Outcome);
+                assert!(outcome.work.steps <= peak.work.steps);
+                sooner += i32::from(outcome.work.steps < peak.work.steps);
+                let overturns = |of: &Response| of.outcome.is_overturned();
+                assert_eq!(overturns(&outcome), overturns(&whole));
                 if peak.work.steps < whole.work.steps {
                     shorter += 1;
                 } else {
@@ -174,4 +183,5 @@ fn runs_that_end_early_say_what_whole_runs_say() {
         }
     }
     assert!(shorter > 100 && same > 100, "{shorter} shorter, {same} not");
+    assert!(sooner > 100, "{sooner} by the outcome alone");
 }

@@ -78,7 +78,7 @@ pub struct AssessCommand {
     /// Share of records that may slide a ranked object.
     #[arg(long, value_name = "SHARE", default_value_t = SLIDING_SHARE)]
     sliding_share: f64,
-    /// Settle each outcome with sufficient precision, which takes about thirty
+    /// Settle each outcome with sufficient precision, which takes about six
     /// times as long; without it, doubtful analyses are only counted.
     #[arg(long)]
     certify: bool,

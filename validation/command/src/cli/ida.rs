@@ -13,9 +13,7 @@ use rocking::ida::{
     Adjust, Analysis, BracketEnd, Grid, HIGHEST_IM, IdaCurve, REFINEMENT,
     Resurrections,
 };
-use rocking::integrator::{
-    Extent, Model, Order, WorkLimit, uplift_threshold,
-};
+use rocking::integrator::{Extent, Model, Order, WorkLimit, uplift_threshold};
 use rocking_procedures::{
     IdaSummary, PivotForces, StripeResponses, summarise_ida,
 };

@@ -393,10 +393,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let near = self.near_base([0.0, w.to_f64()], rest_s);
         let speed = speed.to_f64() * p;
         let rest = |tracker: &mut Accuracy| {
-            if !tracker.resting && F <= LINEAR {
-                if tracker.hops.is_some() || tracker.hops_begin(&near) {
-                    self.hop_at_rest(tracker, from);
-                }
+            let may_hop = !tracker.resting && F <= LINEAR;
+            if may_hop && (tracker.hops.is_some() || tracker.hops_begin(&near))
+            {
+                self.hop_at_rest(tracker, from);
             }
             tracker.rest(rest_s);
         };

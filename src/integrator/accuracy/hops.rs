@@ -106,6 +106,11 @@ fn loss(eta: f64) -> f64 {
     (1.0 / (eta * eta) - 1.0).min(1.0)
 }
 
+/// Growth of the speed after an impact while B rises from any value.
+fn growth(eta: f64) -> f64 {
+    2.0 * SLACK * libm::cbrt(2.0 / loss(eta))
+}
+
 impl Accuracy {
     /// True if small hops begin here: the motion and its error are small.
     pub fn hops_begin(&mut self, at: &NearBase) -> bool {
@@ -136,8 +141,7 @@ impl Accuracy {
         let rate = by.rate.abs();
         let rises = turns || (by.f[0] * by.rate < 0.0 && to > 0.0);
         if rises && hops.counted != rate {
-            let q = loss(by.eta);
-            let growth = 2.0 * SLACK * libm::cbrt(2.0 / q);
+            let (q, growth) = (loss(by.eta), growth(by.eta));
             let steep = 2.0 * rate * growth * hops.speed / (q * cosine);
             let near = from.max(0.0);
             if !(near * near > steep) {
@@ -171,5 +175,39 @@ impl Accuracy {
         let [u, w] = errors.map(|error| error / COVERAGE);
         // Both bounds may be reached at once.
         (self.uu, self.uw, self.ww) = (2.0 * u * u, 0.0, 2.0 * w * w);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::growth;
+
+    /// Largest speed after an impact of a ball that bounces at speed 1 under a
+    /// downward acceleration b + t, until its hops are short.
+    fn largest(mut b: f64, eta: f64) -> f64 {
+        let (mut speed, mut most) = (1.0_f64, 1.0_f64);
+        while b < 1e4 && speed > 1e-3 {
+            // u/t = w - b t/2 - t^2/6 = 0.
+            let root = (b * b + 8.0 / 3.0 * speed).sqrt();
+            let time = 4.0 * speed / (b + root);
+            speed = eta * (b * time + 0.5 * time * time - speed);
+            b += time;
+            most = most.max(speed);
+        }
+        most
+    }
+
+    #[test]
+    fn bouncing_under_rising_gravity_stays_within_the_bound() {
+        let mut closest = 0.0_f64;
+        for eta in [0.1, 0.5, 0.8, 0.92, 0.99, 0.999, 0.9999] {
+            for k in -40..20 {
+                let b = libm::exp10(0.1 * f64::from(k));
+                let share = largest(b, eta) / growth(eta);
+                assert!(share <= 1.0, "eta {eta}, b {b}: {share}");
+                closest = closest.max(share);
+            }
+        }
+        assert!(closest > 0.2, "a bound {closest} of which is reached");
     }
 }

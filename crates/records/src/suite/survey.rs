@@ -22,6 +22,9 @@ const PEER_RESULTS: &str = "_SearchResults.csv";
 /// Bytes of the files that are in memory at a time, for each thread.
 const CHUNK: usize = 1 << 19;
 
+/// Bytes that any file counts, even one that cannot be read.
+const LEAST: usize = 1 << 12;
+
 /// How the records of a suite are read: on all threads of the caller's pool.
 pub struct Reading<'a, W = fn(SuiteMember) -> SuiteMember> {
     /// Values of the caller.
@@ -237,7 +240,7 @@ impl<K> Survey<K> {
                 && let Some(file) = files.next()
             {
                 let bytes = file_bytes(&file);
-                size += bytes.as_ref().map_or(0, Vec::len);
+                size += bytes.as_ref().map_or(0, Vec::len).max(LEAST);
                 chunk.push((file, bytes));
             }
             let chunk = chunk.into_par_iter().panic_fuse().map(work);

@@ -175,7 +175,7 @@ named! {
 /// ```
 /// use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
 /// use rocking::excitation::{NormalisedRecord, ScaledRecord};
-/// use rocking::integrator::Solver;
+/// use rocking::integrator::{Extent, Solver};
 /// use rocking::accelerogram::Accelerogram;
 /// // A second of shaking, then nine that hardly move the ground.
 /// let sample = |k: u32| match k {

@@ -98,8 +98,8 @@ pub struct Analysis {
     /// [`certify`](crate::integrator::certify)); the curve continues from that
     /// result. Otherwise they are flagged. Ignored at a fixed order.
     pub certify: bool,
-    /// How much of each run is needed: outcome and peak, or only the outcome,
-    /// for curves of which only the overturning is used.
+    /// How much of each run is needed: outcome and peak, or only the outcome
+    /// if the curve is used only for its first overturning.
     pub extent: Extent,
     /// Work limit of a level.
     pub work_limit: WorkLimit,

@@ -208,6 +208,6 @@ mod tests {
                 closest = closest.max(share);
             }
         }
-        assert!(closest > 0.2, "a bound {closest} of which is reached");
+        assert!(closest > 0.2, "largest share of the bound: {closest}");
     }
 }

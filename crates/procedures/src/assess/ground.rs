@@ -216,7 +216,7 @@ impl<'a> AssessmentSuite<'a> {
         }
     }
 
-    /// As [`Self::analysis`], for curves of which only the damage is used.
+    /// As [`Self::analysis`], for curves that give only the damage.
     pub(super) fn of_damage(
         &self,
         object: &Object,

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::support::{at2, folder, motion, refused};
 
-/// Ten pairs, of which a study uses half.
+/// Ten pairs. A study uses one record of each.
 fn pairs() -> Vec<(String, String)> {
     let file = |k: usize| {
         let samples = motion(9.0 + k as f64 / 20.0).repeat(80);
